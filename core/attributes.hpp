@@ -3,7 +3,7 @@
 
 #if defined(__CUDACC__)
 #define BROADSIDE_HD __host__ __device__ __forceinline__
-// Of a large function that is called from several places: there is one of it.
+// For a large function that is called from several places: not inlined, so that its code exists once.
 #define BROADSIDE_HD_CALLED __host__ __device__ inline __noinline__
 #else
 #define BROADSIDE_HD inline

@@ -8,7 +8,7 @@
 
 namespace broadside::core {
 
-// Faces of the domain stand in for body B: kFirstFace + 0..5 for -x +x -y +y -z +z. No scene has that many bodies.
+// Faces of the domain take the place of body B: kFirstFace + 0..5 for -x +x -y +y -z +z. No scene has that many bodies.
 constexpr std::uint32_t kFirstFace = 0xFFFFFFF0U;
 constexpr int kFaceCount = 6;
 // Contacts with faces come after all colors of body contacts.
@@ -27,8 +27,8 @@ struct Kinematics {
 };
 
 // Normal: unit, from B to A. Depth > 0 is penetration along it, before this application. The normal impulse acts on A
-// along +normal (>= 0); the tangent impulse acts on A along +tangent, where tangent is the direction of A's sliding
-// relative to B after the normal impulse was chosen and before friction (zero when nothing slides), so sound friction
+// along +normal (>= 0). The tangent impulse acts on A along +tangent. The tangent is the direction in which A slides
+// relative to B after the normal impulse was chosen and before friction (zero when nothing slides), so correct friction
 // has a tangent impulse <= 0.
 struct Contact {
   std::uint32_t a = 0;

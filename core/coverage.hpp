@@ -1,4 +1,4 @@
-// How many of the laws met something in a trace: a verdict of "pass" says little where most laws had nothing to judge.
+// How many of the laws had something to judge in a trace: a verdict of "pass" says little where most laws had nothing.
 #pragma once
 
 #include <array>
@@ -12,7 +12,7 @@ namespace broadside::core {
 
 constexpr std::array kLawKinds{LawKind::kMechanics, LawKind::kMethod, LawKind::kTrace};
 
-// Laws of one kind. A law applied when it passed, failed or was inconclusive: it met something.
+// Laws of one kind. A law counts as applied when it passed, failed or was inconclusive: it had something to judge.
 struct LawCount {
   std::uint64_t applied = 0;
   std::uint64_t laws = 0;
@@ -30,7 +30,7 @@ struct Coverage {
 Coverage coverage_of(std::span<const Verdict> verdicts);
 Coverage coverage_of(std::span<const Verdict* const> verdicts);
 
-// "9 of 14 laws of mechanics applied, 5 of 7 of the trace"; kinds of which no law was asked for are left out.
+// "9 of 14 laws of mechanics applied, 5 of 7 of the trace"; kinds without a requested law are left out.
 std::string coverage_text(const Coverage& coverage);
 
 }  // namespace broadside::core

@@ -10,7 +10,7 @@ namespace {
 
 using OrderedJson = nlohmann::ordered_json;
 
-// The column, or the name of what is wrong with it.
+// Reads the column into `out`. Returns what is wrong with it; empty when nothing is.
 std::string read_numbers(const OrderedJson& row, std::string_view key, std::size_t count, std::vector<double>& out) {
   const auto at = row.find(std::string(key));
   if (at == row.end() || !at->is_array() || at->size() != count) return std::string(key) + " has not one number a step";
@@ -52,7 +52,7 @@ Status write_energy(const std::filesystem::path& file, const std::vector<EnergyS
     rows.push_back(std::move(row));
   }
   const OrderedJson all{{"format", "broadside-energy"}, {"version", 1}, {"rows", std::move(rows)}};
-  // Text that is not UTF-8 is replaced, as in the other rows.
+  // Bytes that are not UTF-8 are replaced, as in the other rows.
   return write_whole_file(file, all.dump(-1, ' ', false, OrderedJson::error_handler_t::replace) + "\n");
 }
 

@@ -1,4 +1,4 @@
-// Where the energy of a run went, frame by frame: what validation's ledger found, as a run's folder keeps it for
+// Where the energy of a run went, frame by frame: the result of validation's ledger, kept in a run's folder for
 // reports.
 #pragma once
 
@@ -13,7 +13,7 @@
 
 namespace broadside::core {
 
-// The ledger's columns, J: the energies at the end of a frame, and the works that add up to their change in it.
+// The ledger's columns, J: the energies at the end of a frame, and the works that add up to their change in that frame.
 inline constexpr std::string_view kEnergyColumns[] = {"kinetic",  "potential",  "integration", "normal impulses",
                                                       "friction", "correction", "cap"};
 inline constexpr std::size_t kEnergyColumnCount = std::size(kEnergyColumns);
@@ -21,7 +21,7 @@ inline constexpr std::size_t kEnergyColumnCount = std::size(kEnergyColumns);
 struct EnergySeries {
   std::string trace_file;
   std::string scene_name;
-  std::string label;                                          // of the engine and its settings
+  std::string label;                                          // the engine and its settings
   std::vector<std::uint64_t> step;                            // rising
   std::array<std::vector<double>, kEnergyColumnCount> joule;  // each as long as step
 };

@@ -1,4 +1,4 @@
-// How deep does a JSON text nest? Asked before parsers and writers that use stack for each level see it.
+// How deeply does a JSON text nest? Checked before it reaches parsers and writers that use stack for each level.
 #pragma once
 
 #include <cstddef>
@@ -6,7 +6,8 @@
 
 namespace broadside::core {
 
-// The most brackets that are open at one place, outside of strings. What is no JSON is for the parser to refuse.
+// The largest number of brackets that are open at one place, outside of strings. Rejecting text that is not JSON is
+// left to the parser.
 std::size_t json_depth(std::string_view text);
 
 }  // namespace broadside::core

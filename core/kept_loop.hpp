@@ -1,5 +1,5 @@
-// A loop that the compiler shall not unroll. On a GPU, warps that are at different places of long code wait for its
-// instructions; the same code in a loop is a fraction of it.
+// Keeps the compiler from unrolling a loop. On a GPU, warps at different places of long code wait for its instructions
+// to be fetched; as a loop, the same code is a fraction of the size.
 #pragma once
 
 #if defined(__CUDACC__)

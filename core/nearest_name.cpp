@@ -8,7 +8,7 @@
 namespace broadside::core {
 namespace {
 
-// Letters that are missing, too many or wrong, and neighbors that were exchanged, each counted once.
+// Counts letters that are missing, extra or wrong, and swapped neighbors, each once.
 std::size_t edit_distance(std::string_view a, std::string_view b) {
   std::vector<std::size_t> row(b.size() + 1);
   std::iota(row.begin(), row.end(), std::size_t{0});
@@ -27,7 +27,7 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
   return row[b.size()];
 }
 
-// Up to a third of the longer word may be wrong for it to be taken as a typing error.
+// A word counts as a typing error when at most a third of the longer word is wrong.
 bool is_near(std::string_view typed, std::string_view name) {
   return edit_distance(typed, name) * 3 <= std::max(typed.size(), name.size());
 }
@@ -37,14 +37,14 @@ std::string_view head_of(std::string_view name) {
   return name.substr(0, name.find(':'));
 }
 
-// Of the names whose first part is meant, the nearest; empty where there is none.
+// The nearest among the names whose first part matches; empty where there is none.
 std::string_view nearest_of_kind(std::string_view typed, std::span<const std::string_view> known) {
   if (typed.find(':') == std::string_view::npos) return {};
   std::vector<std::string_view> heads;
   for (const std::string_view name : known) heads.push_back(head_of(name));
   const std::string_view head = nearest_name(head_of(typed), heads);
   if (!is_near(head_of(typed), head)) return {};
-  // Of those, the ones that begin like it for longest.
+  // Among those, keeps the names that share the longest beginning with it.
   std::vector<std::string_view> of_kind;
   std::ptrdiff_t longest = -1;
   for (const std::string_view name : known) {

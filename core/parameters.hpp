@@ -4,7 +4,8 @@
 namespace broadside::core {
 
 struct Parameters {
-  // Slop: penetration that position correction leaves alone. In meters. Larger is calmer at rest and visibly deeper.
+  // Slop: penetration that position correction leaves alone. In meters. A larger slop is calmer at rest, and bodies
+  // visibly sink deeper.
   float delta_m = 0.001F;
   // Share of the penetration above the slop that one application corrects, 0 < beta <= 1.
   float beta = 1.0F;

@@ -7,7 +7,7 @@
 
 namespace broadside::core {
 
-// The exit codes of the command line. An Error carries the one that it leads to.
+// The exit codes of the command line. An Error carries the exit code that it causes.
 enum class Exit : int { kGood = 0, kFailed = 1, kBadInput = 2, kMissing = 3, kInternal = 4 };
 
 struct Error {
@@ -24,7 +24,7 @@ struct Error {
   }
 };
 
-// value() and error() on the wrong side end the program (std::bad_variant_access): check ok() first.
+// Calling value() or error() on the wrong alternative ends the program (std::bad_variant_access): check ok() first.
 template <typename T>
 class [[nodiscard]] Result {
  public:

@@ -1,5 +1,6 @@
-// Room for items that are written before they are read. Nothing is written when it begins: where most of it is never
-// used, as of a face that may have many corners, that would take longer than the work itself.
+// Uninitialized storage for items that are written before they are read. Constructing it writes nothing: for arrays
+// that are mostly unused, such as the corners of a face that may have many, initialization would take longer than the
+// work.
 #pragma once
 
 #include "core/attributes.hpp"

@@ -13,7 +13,7 @@
 
 namespace broadside::core {
 
-// What became of one (scene, engine, settings). Absence is a word, never a blank.
+// The outcome of one (scene, engine, settings). Absence is a word, never a blank.
 enum class CellState { kRecorded, kNotMeasured, kUnsupported, kCrashed, kTimedOut, kInterrupted, kFailed };
 
 std::string_view cell_state_word(CellState state);
@@ -28,7 +28,7 @@ struct Cell {
   // Step -> digest of that recorded frame: the last frame, and any other at which a timed run may end. A sample is
   // admitted only when its final digest is found here.
   std::map<std::uint64_t, std::uint64_t> digests;
-  // What the recording run counted ("box tests" -> 41203): equal on every machine for one program and one stamp.
+  // Work counted in the recording run ("box tests" -> 41203): equal on every machine for one program and one stamp.
   std::map<std::string, std::uint64_t> counters;
   std::map<std::string, std::string> notes;  // "frames measured" -> "every 100th"; "mesh" -> file and sum
 };
@@ -37,10 +37,10 @@ struct CellVerdicts {
   std::string trace_file;
   Stamp stamp;
   std::vector<Verdict> verdicts;
-  // Whether the engine moved the bodies itself, so that its motion has something to prove; false where it was fed, and
-  // in rows of builds that did not tell.
+  // Whether the engine moved the bodies itself, so that its motion can be judged; false where it was given recorded
+  // boxes or poses, and in rows of builds that did not record this.
   bool is_simulation = false;
-  std::map<std::string, std::string> declaration;  // what the engine declared of itself, by key
+  std::map<std::string, std::string> declaration;  // what the engine declared, by key
 };
 
 struct RunRows {
@@ -50,14 +50,14 @@ struct RunRows {
 };
 
 // Files: cells.json, verdicts.json, samples.json: {"format": "broadside-cells", "version": 1, "rows": [...]}. Written
-// beside their final name, synced and renamed. Doubles round-trip; NaN and infinity are written as the strings "nan",
+// to a temporary name, synced and renamed. Doubles round-trip; NaN and infinity are written as the strings "nan",
 // "inf", "-inf"; digests are strings "0x" + 16 hexadecimal digits, which survive readers that hold numbers as doubles.
-// Text that is not UTF-8 is written with replacement characters. A file that is absent reads as no rows; a malformed
-// one is an error that names the file, the row and the field.
+// Text that is not UTF-8 is written with replacement characters. An absent file reads as no rows; a malformed one is an
+// error that names the file, the row and the field.
 Status write_cells(const std::filesystem::path& file, const std::vector<Cell>& cells);
 Status write_verdicts(const std::filesystem::path& file, const std::vector<CellVerdicts>& verdicts);
 Status write_samples(const std::filesystem::path& file, const std::vector<Sample>& samples);
-// One file of samples; an absent one is an error here.
+// Reads one file of samples; here an absent file is an error.
 Result<std::vector<Sample>> read_samples(const std::filesystem::path& file);
 Result<RunRows> read_rows(const std::filesystem::path& folder);
 

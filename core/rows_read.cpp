@@ -19,13 +19,13 @@ constexpr std::array kCellStates{CellState::kRecorded, CellState::kNotMeasured, 
                                  CellState::kFailed};
 constexpr std::array kOutcomes{Outcome::kPass, Outcome::kFail, Outcome::kInconclusive, Outcome::kNotApplicable};
 
-// Thrown and caught within this file only: a field that is not what the schema says.
+// Never leaves this file: thrown for a field that differs from the schema, and caught here.
 struct Malformed {
   std::string where;
   std::string what;
 };
 
-// One value of the document and the way to it, for errors that name the field.
+// A value of the document with the path to it, for errors that name the field.
 class Node {
  public:
   Node(const Json& json, std::string path) : json_(json), path_(std::move(path)) {}
@@ -150,13 +150,13 @@ void read(const Node& node, Cell& cell) {
     if (key.empty() || std::from_chars(key.data(), end, step).ptr != end) value.reject("has a step that is no number");
     cell.digests[step] = value.digest();
   }
-  // Rows of earlier builds have none.
+  // Rows of earlier builds have no counters.
   if (node.has("counters"))
     for (const auto& [key, value] : node.at("counters").members()) cell.counters[key] = value.count();
   for (const auto& [key, value] : node.at("notes").members()) cell.notes[key] = value.text();
 }
 
-// Parts have no parts: a file cannot nest them deeper than the program writes them.
+// Parts have no parts, so a file cannot nest them deeper than the program writes them.
 enum class Depth { kWhole, kPart };
 
 void read(const Node& node, Verdict& verdict, Depth depth = Depth::kWhole) {
@@ -174,7 +174,7 @@ void read(const Node& node, Verdict& verdict, Depth depth = Depth::kWhole) {
   verdict.checked = node.at("checked").count();
   verdict.violations = node.at("violations").count();
   verdict.baseline = node.at("baseline").text();
-  // Rows of earlier builds end here.
+  // Rows of earlier builds end before this field.
   if (node.has("law")) verdict.law = node.at("law").text();
   if (node.has("kind"))
     verdict.kind = word_of<LawKind>(node.at("kind"), kLawKinds, [](LawKind k) { return law_kind_word(k); });

@@ -18,7 +18,7 @@ std::string hex(std::uint64_t digest) {
   return text;
 }
 
-// JSON has no word for these, and a missing value would read as zero.
+// JSON has no literal for these numbers, and a missing value would read as zero.
 OrderedJson number(double value) {
   if (std::isnan(value)) return "nan";
   if (std::isinf(value)) return value > 0 ? "inf" : "-inf";

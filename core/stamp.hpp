@@ -11,7 +11,7 @@ struct Stamp {
   std::uint64_t scene_digest = 0;
   std::string engine;           // "octree-cpu"
   std::string settings;         // canonical form
-  std::string settings_short;   // what differs from the defaults
+  std::string settings_short;   // settings that differ from the defaults
   std::string engine_build;     // library and version
   std::string broadside_build;  // version, commit, compiler, flags
   std::string machine;          // CPU model, cores, memory, OS, GPU or "no device"

@@ -1,4 +1,4 @@
-// The paper's printed, wrong forms (METHOD section 10), kept as engines that a validator must catch.
+// The forms that the paper printed wrong (METHOD section 10), kept as variants that a validator must catch.
 #pragma once
 
 #include <array>

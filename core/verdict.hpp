@@ -24,7 +24,7 @@ constexpr std::string_view outcome_word(Outcome o) {
   return "unknown";
 }
 
-// For "the worst of": a fail outweighs an inconclusive verdict, that a pass, and a pass one that did not apply.
+// For "the worst of": fail is worse than inconclusive, inconclusive than pass, and pass than not applicable.
 constexpr int severity(Outcome o) {
   switch (o) {
     case Outcome::kFail:
@@ -39,11 +39,11 @@ constexpr int severity(Outcome o) {
   return 3;
 }
 
-// What a law is about. Coverage is counted by it.
+// The subject of a law. Coverage is counted by kind.
 enum class LawKind {
-  kTrace,      // the record itself: pairs, digests, states that can be
-  kMethod,     // the published method, of traces that declare it
-  kMechanics,  // rigid bodies, of any engine
+  kTrace,      // the record itself: pairs, digests, valid states
+  kMethod,     // the published method, for traces that declare it
+  kMechanics,  // mechanics of rigid bodies, for any engine
 };
 
 constexpr std::string_view law_kind_word(LawKind k) {
@@ -69,26 +69,26 @@ struct Verdict {
   std::string validator;
   Outcome outcome = Outcome::kNotApplicable;
   double measured = 0.0;    // the worst value, in `unit`
-  double limit = 0.0;       // what it may be at most (or at least: the origin says)
+  double limit = 0.0;       // the largest allowed value (or the smallest: the origin says)
   std::string unit;         // "", "m", "J", "rad", "pairs"
   std::string origin;       // where the limit comes from, one sentence
-  std::string explanation;  // what was checked, or why it does not apply, or what failed: one sentence
+  std::string explanation;  // one sentence: what was checked, why it does not apply, or what failed
   Place worst;
   std::uint64_t checked = 0;  // how many things were judged
   std::uint64_t violations = 0;
-  std::string baseline;  // label of the trace that this was judged against; empty = alone
+  std::string baseline;  // label of the trace against which this was judged; empty = none
 
-  std::string law;  // what holds, one sentence
+  std::string law;  // the law itself, one sentence
   LawKind kind = LawKind::kTrace;
-  // Whether the law says how forces move bodies; and how many of the things that were judged were bodies that moved. A
-  // time counts only where such a law passed on one.
+  // Whether the law says how forces move bodies; and how many of the judged things were bodies that moved. A time is
+  // admitted only where such a law passed on a moving body.
   bool ties_motion_to_forces = false;
   std::uint64_t moved = 0;
-  // The laws that this verdict sums up, where they are several; each has its own worst place and counts.
+  // The laws that this verdict sums up, when there are several; each has its own worst place and counts.
   std::vector<Verdict> parts;
 };
 
-// Whether it ties the motion of at least one body that moved to the forces on it.
+// Whether the verdict ties the motion of at least one moving body to the forces on it.
 inline bool proves_motion(const Verdict& v) {
   return v.ties_motion_to_forces && v.outcome == Outcome::kPass && v.moved > 0;
 }

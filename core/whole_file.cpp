@@ -11,8 +11,8 @@
 namespace broadside::core {
 namespace {
 
-// Closes on the way out of any branch; close_now() reports what close() says, which is where some file systems first
-// admit that the disk is full.
+// Closes the file on every path. close_now() reports the result of close(), which is where some file systems first
+// report a full disk.
 class Descriptor {
  public:
   explicit Descriptor(int fd) : fd_(fd) {}
@@ -49,7 +49,7 @@ bool write_all(int fd, std::string_view content) {
   return true;
 }
 
-// The rename itself must survive a power cut. Some file systems refuse to sync a folder; then there is no more to do.
+// The rename itself must survive a power cut. Some file systems refuse to sync a folder; then nothing more can be done.
 void sync_folder_of(const std::filesystem::path& file) {
   const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : ".";
   const Descriptor fd(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));

@@ -1,27 +1,30 @@
-// When four moving points can lie in one plane: features that touch do. The volume of the points is a cubic in time; an
-// interval in which it is surely not zero holds no touch. For one query, or several side by side (lane_math.hpp).
+// When four moving points can lie in one plane, which is necessary for their features to touch. The volume of the
+// tetrahedron that they span is a cubic in time; over an interval in which it is certainly not zero, nothing touches.
+// For one query, or several side by side (lane_math.hpp).
 #pragma once
 
 #include "core/continuous/parting.hpp"
 
 namespace broadside::continuous {
 
-// Bernstein coefficients on the step, and what rounding may have changed of each.
+// The volume's Bernstein coefficients on the step, and a bound of the rounding error of each.
 template <typename Real>
 struct Volume {
   Real at[4];
   Real doubt;
 };
 
-// Of a coefficient: differences of coordinates in three factors, a product and a difference and the sum of two of them
-// in the cross product, a product and two sums in the other one, a sum and a product with a third that is rounded: 12
-// roundings of 2^-53 of six products, and those of their sum.
+// Rounding error of one coefficient, relative to the sum of the magnitudes of its six products. Each product has three
+// factors that are differences of coordinates. The cross product adds a product, a difference and the sum of two such
+// terms; the dot product adds a product and two sums; then come a sum and a product with a third that is itself
+// rounded. That makes 12 roundings of 2^-53, plus those of the sum of magnitudes.
 inline constexpr double kVolumeRounding = 16.0 * 0x1p-53;
-// A split is three layers of a difference of up to twice the largest coefficient, a product and a sum: 15 roundings.
+// A split has three layers, each a difference of up to twice the largest coefficient, a product and a sum: 15
+// roundings.
 inline constexpr double kSplitRounding = 16.0 * 0x1p-53;
-// Newton's method doubles the digits from one or two on.
+// Each step of Newton's method doubles the number of correct digits, once there are one or two.
 inline constexpr int kGuesses = 5;
-// A split's and a dozen roundings of values that are no larger than three times the largest coefficient.
+// Roundings of a split and a dozen more, of values that are at most three times the largest coefficient.
 inline constexpr double kGuessRounding = 64.0 * 0x1p-53;
 // Times are sums of a dozen rounded products below 1.
 inline constexpr double kTimeRounding = 0x1p-49;
@@ -39,7 +42,7 @@ BROADSIDE_HD Volume<Real> volume_of(const Differences<Real, kCount>& x) {
           Real(kVolumeRounding) * six + Real(kUnderflow)};
 }
 
-// The points are surely in no plane during the whole step.
+// True when the points certainly lie in no common plane during the whole step.
 template <typename Real>
 BROADSIDE_HD auto is_never_flat(const Volume<Real>& volume) {
   const Real least = lesser(lesser(volume.at[0], volume.at[1]), lesser(volume.at[2], volume.at[3]));
@@ -47,14 +50,14 @@ BROADSIDE_HD auto is_never_flat(const Volume<Real>& volume) {
   return (least > volume.doubt) | (most < Real(0.0) - volume.doubt);
 }
 
-// Coefficients on the parts before and behind a share of an interval.
+// Bernstein coefficients on the two parts of an interval, before and after a given share of it.
 template <typename Real>
 struct Split {
   Real before[4];
   Real behind[4];
 };
 
-// Less what its rounding may have added.
+// Lower bounds of the coefficients: the most that rounding may have added is subtracted.
 template <typename Real>
 BROADSIDE_HD Split<Real> split(const Real (&g)[4], const Real& share) {
   const Real most = larger(larger(magnitude(g[0]), magnitude(g[1])), larger(magnitude(g[2]), magnitude(g[3])));
@@ -68,15 +71,16 @@ BROADSIDE_HD Split<Real> split(const Real (&g)[4], const Real& share) {
   return {{g[0] - doubt, a - doubt, d - doubt, f}, {f, e - doubt, c - doubt, g[3] - doubt}};
 }
 
-// Until when the points are surely in no plane, from `time` on: above 1 for the whole rest of the step, and no more
-// than `time` when they may be in one now. The steepest line from the first coefficient to another one lies below the
-// polygon of all, and so below the volume: no zero lies before its own. From there Newton's method guesses the zero,
-// and the coefficients of the part before it prove the guess; where they do not, the line's zero counts.
+// The time, from `time` on, up to which the points certainly lie in no common plane: above 1 for the whole rest of the
+// step, and at most `time` when they may lie in one now. The steepest line from the first coefficient to another one
+// lies below the control polygon, and so below the volume: the volume has no zero before that line's zero. From there
+// Newton's method guesses the zero of the volume, and the coefficients on the part before the guess prove it. Where
+// they do not, the line's zero is returned.
 template <typename Real>
 BROADSIDE_HD Real unflat_until(const Volume<Real>& volume, const Real& time) {
   const Real zero(0.0), one(1.0);
   Real g[4];
-  // The sign of now: behind a time at which it is about zero, the first coefficient there says which it is.
+  // The sign of the volume now. Just after a time at which the volume is about zero, the first coefficient gives it.
   const auto is_below = split(volume.at, time).behind[0] < zero;
   for (int k = 0; k < 4; ++k) g[k] = pick(is_below, zero - volume.at[k], volume.at[k]) - volume.doubt;
   const Split<Real> rest = split(g, time);
@@ -90,7 +94,7 @@ BROADSIDE_HD Real unflat_until(const Volume<Real>& volume, const Real& time) {
   const Real from = time + share * (one - time);
   const Split<Real> tail = split(rest.behind, share);
   const Real(&h)[4] = tail.behind;
-  // The guess is of a little more than zero, by what splitting once more and Newton's method may round.
+  // The guess aims a little above zero, by what one more split and Newton's method may round.
   const Real most = larger(larger(magnitude(h[0]), magnitude(h[1])), larger(magnitude(h[2]), magnitude(h[3])));
   const Real a0 = h[0] - Real(kGuessRounding) * most;
   const Real a1 = Real(3.0) * (h[1] - h[0]);

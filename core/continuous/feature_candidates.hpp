@@ -1,5 +1,5 @@
-// Candidates of continuous collision: pairs of features whose boxes, swept over the step, overlap. From pairs of
-// triangles whose swept boxes overlap, as a broad phase finds them.
+// Candidates of continuous collision: pairs of features whose boxes, swept over the step, overlap. They are found from
+// the pairs of triangles with overlapping swept boxes that a broad phase reports.
 #pragma once
 
 #include <cstdint>
@@ -12,12 +12,12 @@
 
 namespace broadside::continuous {
 
-// The box of everywhere that a point is during the step: that of both ends, exactly.
+// The box that contains a point during the whole step: exactly the box of its two end positions.
 BROADSIDE_HD core::Box swept_box(core::Vec3 start, core::Vec3 end) {
   return core::grown(core::Box{start, start}, end);
 }
 
-// Of each triangle.
+// One swept box per triangle.
 std::vector<core::Box> swept_boxes(const MovingSurface& surface);
 
 class CandidateFinder {
@@ -30,7 +30,7 @@ class CandidateFinder {
   // that own the two features, so the pairs of all overlapping triangles give each candidate once.
   void add(std::span<const core::Pair> triangles, FeaturePairs& out) const;
 
-  // Of all pairs of features, without a broad phase: for tests.
+  // Finds the candidates among all pairs of features, without a broad phase: for tests.
   [[nodiscard]] FeaturePairs try_all() const;
 
  private:
@@ -41,7 +41,7 @@ class CandidateFinder {
   const MovingSurface& surface_;
   const SurfaceFeatures& features_;
   std::vector<core::Box> faces_, edges_, vertices_;
-  std::vector<std::uint8_t> owned_;  // of each triangle: bit k, its corner k; bit 3 + k, its edge k
+  std::vector<std::uint8_t> owned_;  // one per triangle: bit k = it owns its corner k; bit 3 + k = its edge k
 };
 
 }  // namespace broadside::continuous

@@ -1,12 +1,12 @@
-// When two moving features first touch, in double: never late, and early by no more than rounding asks for. For host
-// and device, for one query or several side by side; the same bits everywhere.
+// When two moving features first touch, computed in double. The time is never late, and early by no more than rounding
+// requires. For host and device, for one query or several side by side; the same bits everywhere.
 //
-// Two certificates take turns. A direction that parts the features does so for an interval that follows in closed form
-// (parting.hpp), and while their four points lie in no plane nothing touches (coplanar_times.hpp): that leads to just
-// before the time at which they touch, or pass each other in one plane, and then a direction leads on. Both prove every
-// step, with rounding subtracted; a poor direction costs a step, never a touch. What is not through after a few such
-// turns, as edges that stay parallel and features that stay in one plane, goes on with directions that turn
-// (turning_parting.hpp).
+// Two certificates take turns. A direction that separates the features does so for an interval that follows in closed
+// form (parting.hpp). While the four points of the features lie in no common plane, nothing touches
+// (coplanar_times.hpp): this leads to just before the time at which the features touch or pass each other in one plane,
+// and from there a direction leads on. Both prove every step, with rounding subtracted: a poor direction costs a step
+// and never misses a touch. Queries that are undecided after a few such rounds, such as edges that stay parallel and
+// features that stay in one plane, continue with directions that turn (turning_parting.hpp).
 #pragma once
 
 #include <cmath>
@@ -18,7 +18,7 @@
 
 namespace broadside::continuous {
 
-// time: not later than the exact first touch, in units of the step. Without touch it is 1.
+// time: not later than the exact first touch, in units of the step. 1 when there is no touch.
 struct Impact {
   bool touches = false;
   double time = 1.0;
@@ -26,20 +26,21 @@ struct Impact {
   friend constexpr bool operator==(const Impact&, const Impact&) = default;
 };
 
-// Rounds of both certificates. General impacts take one or two, those that pass three planes four.
+// Most rounds of both certificates. Ordinary impacts take one or two; features that pass through three common planes
+// take four.
 inline constexpr int kRounds = 6;
-// Steps of directions that turn. A query that is not through by then is reported as a touch at the time reached, which
-// is early.
+// Most steps with directions that turn. A query that is still undecided is then reported as a touch at the time it has
+// reached, which is early.
 inline constexpr int kMostSteps = 64;
-// After so many steps the direction turns as it did over the last one.
+// From this step on, the direction turns at the rate at which it turned over the previous step.
 inline constexpr int kPlainSteps = 2;
-// A step of less than this share of the whole ends the search. Features that come as near as they move in that time are
-// reported as touching. Of rounds it is 16 times as much: before a touch they end where the volume is what rounding may
-// have changed of it, and directions that do not turn would take many steps for the rest.
+// The search ends at a step shorter than this share of the whole. Features that come as near as they move in that time
+// are reported as touching. kLeastRound ends the rounds, at 16 times as much: before a touch, rounds end where the
+// volume is no larger than its own rounding error, and directions that do not turn would take many steps for the rest.
 inline constexpr double kLeastStep = 0x1p-44;
 inline constexpr double kLeastRound = 0x1p-40;
-// Differences up to 2^60, and not all below 2^-60, have products of four that neither overflow nor vanish; of others
-// the coordinates are scaled by a power of two first.
+// When differences are at most 2^60 and not all below 2^-60, products of four of them neither overflow nor vanish.
+// Otherwise the coordinates are first scaled by a power of two.
 inline constexpr double kLargest = 0x1p60;
 
 template <typename Real, int kCount>
@@ -48,24 +49,25 @@ BROADSIDE_HD auto is_of_usual_size(const Differences<Real, kCount>& x) {
   return (largest <= Real(kLargest)) & ((largest >= Real(1.0 / kLargest)) | (largest <= Real(0.0)));
 }
 
-// How far a query has come. time: above 1 when the features surely never touch; else no touch lies before.
+// How far a query has come. time: above 1 when the features certainly never touch; otherwise there is no touch before
+// it.
 template <typename Real, typename Mask>
 struct Search {
   Real time;
-  Mask touches;  // at `time`, as near as rounding tells
-  Mask is_open;  // neither
+  Mask touches;  // they touch at `time`, as far as rounding can tell
+  Mask is_open;  // neither is decided yet
 };
 
-// The first look: an axis of the world along which the features are apart at both ends, or one direction more, prove
-// that there is no touch. Decides most queries that have none, at a small part of the cost of a search.
+// The first test: a world axis along which the features are apart at both ends, or one direction besides, proves that
+// there is no touch. It decides most queries without a touch, at a small part of the cost of a search.
 template <typename Real, int kCount>
 BROADSIDE_HD auto is_apart_at_first_look(const Differences<Real, kCount>& x) {
   const Real zero(0.0);
   return is_apart_along_an_axis(x) | (parted_until(x, middle_direction(x), zero) > Real(1.0));
 }
 
-// The rest, by rounds of both certificates. What is not through by `limit`, at most 1,
-// is left there: who looks for the earliest touch needs no more.
+// Decides the rest, by rounds of both certificates. A query that is undecided at `limit` (at most 1) stops there,
+// because a caller that wants the earliest of many touches needs no more.
 template <typename Real, int kCount>
 BROADSIDE_HD auto search(const Differences<Real, kCount>& x, const Volume<Real>& volume, Real limit) {
   Real time(0.0);
@@ -86,7 +88,7 @@ BROADSIDE_HD auto search(const Differences<Real, kCount>& x, const Volume<Real>&
   return Search<Real, decltype(is_open)>{time, touches, is_open};
 }
 
-// What is still open after that, with directions that turn.
+// Decides what is still open after that, with directions that turn.
 template <int kCount>
 BROADSIDE_HD Impact turning_search(const Differences<double, kCount>& x, double time) {
   Triple<double> now[kCount];
@@ -111,7 +113,7 @@ BROADSIDE_HD Impact turning_search(const Differences<double, kCount>& x, double 
   return {true, time};
 }
 
-// 1, or the power of two by which coordinates are multiplied first.
+// The power of two by which coordinates are multiplied first; 1 when none is needed.
 BROADSIDE_HD double scale_of(const MovingFeatures& f) {
   double most = 0.0;
   for (int k = 0; k < 4; ++k) most = fmax(most, fmax(largest_of(f.start[k]), largest_of(f.end[k])));
@@ -140,7 +142,7 @@ BROADSIDE_HD Impact first_impact_of(const MovingFeatures& f) {
   return found.touches ? Impact{true, found.time} : Impact{};
 }
 
-// Coordinates are finite.
+// Precondition: all coordinates are finite.
 BROADSIDE_HD Impact first_impact(const MovingFeatures& features) {
   return features.kind == FeatureKind::kVertexFace ? first_impact_of<kFaceCount>(features)
                                                    : first_impact_of<kEdgeCount>(features);

@@ -1,5 +1,6 @@
-// What formulas of continuous collision need of a number, so that one text serves a double on host and device and
-// several doubles side by side in a vector register (reference/continuous/): the same operations, and so the same bits.
+// The operations that formulas of continuous collision need of a number type. One source then serves a double on host
+// and device and several doubles side by side in a vector register (reference/continuous/), with the same operations
+// and so the same bits.
 #pragma once
 
 #include <cmath>
@@ -9,7 +10,7 @@
 
 namespace broadside::continuous {
 
-// A choice without a branch; conditions are joined with & and |, and turned with !.
+// A choice without a branch. Conditions are joined with & and |, and negated with !.
 BROADSIDE_HD double pick(bool is_first, double first, double second) {
   return is_first ? first : second;
 }

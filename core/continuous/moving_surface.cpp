@@ -73,7 +73,7 @@ SurfaceFeatures features_of(const MovingSurface& surface) {
   SurfaceFeatures out;
   out.owner_of_vertex.assign(surface.start.size(), kNoTriangle);
   out.edges_of.resize(surface.triangles.size());
-  // Each edge of each triangle, by its vertices and then by triangle: the first of equal ones is the owner.
+  // Each edge of each triangle, sorted by its vertices and then by triangle: the first of equal edges owns the edge.
   struct Use {
     std::uint64_t edge;
     std::uint64_t corner;  // 3 times the triangle, and which of its edges

@@ -1,5 +1,5 @@
 // A triangle mesh, or several in one, whose vertices move along straight lines during one step; and its vertices, edges
-// and triangles as features, each of which belongs to one triangle.
+// and triangles as features. Each feature belongs to one triangle.
 #pragma once
 
 #include <array>
@@ -16,14 +16,14 @@ namespace broadside::continuous {
 
 struct MovingSurface {
   std::string name;
-  std::vector<core::Vec3> start;  // of each vertex, m
+  std::vector<core::Vec3> start;  // one per vertex, m
   std::vector<core::Vec3> end;
   std::vector<core::Triangle> triangles;
-  std::vector<std::uint32_t> part;    // of each triangle, a number of its own for each body; empty: all are one
-  bool parts_meet_themselves = true;  // false: features of one part are no candidates, as of rigid bodies
+  std::vector<std::uint32_t> part;    // one per triangle: the number of its body; empty: all are one body
+  bool parts_meet_themselves = true;  // false: two features of one part are no candidates, as in a rigid body
 };
 
-// Errors: counts that differ, a coordinate that is not finite, a triangle of a vertex that is not there.
+// Errors: counts that differ, a coordinate that is not finite, a triangle with a vertex that does not exist.
 core::Status check(const MovingSurface& surface);
 
 // The surface that moves from one mesh to the other. Errors: meshes that do not have the same triangles.
@@ -34,7 +34,7 @@ inline constexpr std::uint32_t kNoTriangle = ~std::uint32_t{0};
 struct SurfaceFeatures {
   std::vector<std::array<std::uint32_t, 2>> edges;            // vertices, the lower number first; sorted
   std::vector<std::array<std::uint32_t, 3>> edges_of;         // of each triangle: between its corners 01, 12, 20
-  std::vector<std::uint32_t> owner_of_vertex, owner_of_edge;  // its first triangle; kNoTriangle of a stray vertex
+  std::vector<std::uint32_t> owner_of_vertex, owner_of_edge;  // first triangle that has it; kNoTriangle: a stray vertex
 };
 
 SurfaceFeatures features_of(const MovingSurface& surface);
@@ -61,7 +61,7 @@ BROADSIDE_HD std::uint64_t feature_digest(FeatureKind kind, FeaturePair p) {
 }
 std::uint64_t digest_of(const FeaturePairs& pairs);
 
-// The four points, as MovingFeatures numbers them.
+// The four vertices of a pair, numbered as in MovingFeatures.
 std::array<std::uint32_t, 4> points_of(const MovingSurface& surface, const SurfaceFeatures& features, FeatureKind kind,
                                        FeaturePair pair);
 MovingFeatures moving_features(const MovingSurface& surface, const SurfaceFeatures& features, FeatureKind kind,

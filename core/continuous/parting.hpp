@@ -1,5 +1,5 @@
-// Directions that part two moving features, and for how long: each step of a search for their first touch is proved by
-// one. For one query, or several side by side (lane_math.hpp).
+// Directions that separate two moving features, and for how long: one of them proves each step of a search for the
+// first touch. For one query, or several side by side (lane_math.hpp).
 #pragma once
 
 #include "core/continuous/lane_math.hpp"
@@ -7,14 +7,14 @@
 
 namespace broadside::continuous {
 
-// Each point of the first feature less each of the second: kCount is 3 of a vertex and a triangle, 4 of two edges (in
-// the order 0-2, 0-3, 1-2, 1-3 of MovingFeatures).
+// Differences of each point of the first feature and each point of the second. kCount is 3 for a vertex and a triangle,
+// and 4 for two edges (in the order 0-2, 0-3, 1-2, 1-3 of MovingFeatures).
 template <typename Real, int kCount>
 struct Differences {
   Triple<Real> start[kCount];
   Triple<Real> end[kCount];
-  Triple<Real> reach[kCount];  // of each the larger magnitude, axis by axis
-  Triple<Real> most;           // of all of them
+  Triple<Real> reach[kCount];  // the larger magnitude of start and end, axis by axis
+  Triple<Real> most;           // the largest of all of them
 };
 
 inline constexpr int kFaceCount = 3;
@@ -22,7 +22,7 @@ inline constexpr int kEdgeCount = 4;
 
 // A difference of coordinates, a product and two sums: four roundings of 2^-53 each, and one more for the bound itself.
 inline constexpr double kRounding = 5.0 * 0x1p-53;
-// Products that fall below the smallest normal double.
+// Covers products that fall below the smallest normal double.
 inline constexpr double kUnderflow = 0x1p-1060;
 // A line's zero takes three roundings, of 2^-53 each.
 inline constexpr double kZeroRounding = 0x1p-51;
@@ -42,8 +42,9 @@ BROADSIDE_HD Differences<Real, kCount> differences(const Triple<Real> (&start)[4
   return out;
 }
 
-// Until when d surely parts the features, from `time` on: above 1 for the whole rest of the step, and no more than
-// `time` when it proves nothing. With d fixed the differences along it are linear in time. d need not be a unit.
+// The time, from `time` on, up to which d certainly separates the features: above 1 for the whole rest of the step, and
+// at most `time` when d proves nothing. Along a fixed d the differences are linear in time. d need not be a unit
+// vector.
 template <typename Real, int kCount>
 BROADSIDE_HD Real parted_until(const Differences<Real, kCount>& x, const Triple<Real>& d, const Real& time) {
   const Real doubt = kRounding * dot(magnitude(d), x.most) + Real(kUnderflow);
@@ -74,7 +75,7 @@ BROADSIDE_HD Triple<Real> towards(const Triple<Real>& normal, const Triple<Real>
   return pick(dot(normal, side) < Real(0.0), Real(-1.0) * normal, normal);
 }
 
-// Across the triangle, or across both edges, on the side of the first feature. No unit.
+// The normal of the triangle, or the common normal of both edges, toward the first feature. Not a unit vector.
 template <typename Real>
 BROADSIDE_HD Triple<Real> across(const Triple<Real> (&now)[kFaceCount]) {
   return towards(cross(now[1] - now[0], now[2] - now[0]), now[0]);
@@ -84,8 +85,9 @@ BROADSIDE_HD Triple<Real> across(const Triple<Real> (&now)[kEdgeCount]) {
   return towards(cross(now[2] - now[0], now[0] - now[1]), now[0]);
 }
 
-// The direction from the nearest point of the triangle to the vertex, by the region in which the vertex lies: a corner,
-// an edge, or the inside, where it is the normal, which keeps digits that a difference would lose. No unit.
+// The direction from the nearest point of the triangle to the vertex, chosen by the region in which the vertex lies: a
+// corner, an edge, or the inside. Inside it is the triangle's normal, which keeps digits that a difference would lose.
+// Not a unit vector.
 template <typename Real>
 BROADSIDE_HD Triple<Real> nearest(const Triple<Real> (&now)[kFaceCount]) {
   const Real zero(0.0), one(1.0);
@@ -103,7 +105,7 @@ BROADSIDE_HD Triple<Real> nearest(const Triple<Real> (&now)[kFaceCount]) {
   const auto on_ab = (area_c <= zero) & (ua >= zero) & (ub <= zero) & (ua > ub);
   const auto on_ac = (area_b <= zero) & (va >= zero) & (vc <= zero) & (va > vc);
   const auto on_bc = (area_a <= zero) & (from_b >= zero) & (from_c >= zero) & (from_b + from_c > zero);
-  // A point of an edge is base + (part / whole) way; the first region that holds counts, and so is picked last.
+  // A point of an edge is base + (part / whole) way. The first region that holds counts, so it is picked last.
   Triple<Real> base = b, way = c - b;
   Real part = from_b, whole = from_b + from_c;
   const auto take = [&](const auto& is_it, const Triple<Real>& at, const Triple<Real>& along, const Real& p,
@@ -125,7 +127,8 @@ BROADSIDE_HD Triple<Real> nearest(const Triple<Real> (&now)[kFaceCount]) {
   return pick(is_inside, pick(has_area, normal, a), edge);
 }
 
-// The difference of the nearest points of two edges, or where both lie inside of them, their common normal. No unit.
+// The difference of the nearest points of two edges, or where both lie inside their edges, the common normal. Not a
+// unit vector.
 template <typename Real>
 BROADSIDE_HD Triple<Real> nearest(const Triple<Real> (&now)[kEdgeCount]) {
   const Real zero(0.0), one(1.0);
@@ -149,7 +152,8 @@ BROADSIDE_HD Triple<Real> nearest(const Triple<Real> (&now)[kEdgeCount]) {
   return pick(is_inside, normal, edge);
 }
 
-// All differences have one sign along an axis: rounding never changes the sign of a difference, so this is exact.
+// True when all differences have one sign along an axis. Rounding never changes the sign of a difference, so this is
+// exact.
 template <typename Real, int kCount>
 BROADSIDE_HD auto is_apart_along_an_axis(const Differences<Real, kCount>& x) {
   Triple<Real> least = lesser(x.start[0], x.end[0]);
@@ -159,14 +163,14 @@ BROADSIDE_HD auto is_apart_along_an_axis(const Differences<Real, kCount>& x) {
     most = larger(most, larger(x.start[k], x.end[k]));
   }
   const Real zero(0.0);
-  // | instead of ||: no branch.
+  // | instead of ||, to avoid a branch.
   // NOLINTNEXTLINE(clang-diagnostic-bitwise-instead-of-logical)
   return (larger(larger(least.x, least.y), least.z) > zero) | (lesser(lesser(most.x, most.y), most.z) < zero);
 }
 
-// A direction that is likely to part them for the whole step. Of a vertex and a triangle from the mean place of the
-// corners to that of the vertex, which does nearly as well as the nearest point and costs a quarter; of edges the
-// nearest one halfway.
+// A direction that is likely to separate them for the whole step. For a vertex and a triangle it goes from the mean
+// position of the corners to that of the vertex, which works nearly as well as the nearest point and costs a quarter;
+// for edges it is the nearest direction at half time.
 template <typename Real>
 BROADSIDE_HD Triple<Real> middle_direction(const Differences<Real, kFaceCount>& x) {
   return (x.start[0] + x.end[0]) + (x.start[1] + x.end[1]) + (x.start[2] + x.end[2]);

@@ -8,7 +8,7 @@
 
 namespace broadside::continuous {
 
-// Both places of a vertex, and a fourth number that nobody reads.
+// Both positions of a vertex, and a fourth number that is unused.
 struct alignas(32) VertexPath {
   float start[4];
   float end[4];
@@ -21,7 +21,7 @@ struct SurfaceView {
   const std::uint32_t* triangles = nullptr;  // three vertices each
   const std::uint32_t* edges = nullptr;      // two vertices each
 
-  // As MovingFeatures numbers the points of a pair.
+  // The path of a pair's point, numbered as in MovingFeatures.
   [[nodiscard]] BROADSIDE_HD const VertexPath& path(FeatureKind kind, FeaturePair pair, int point) const {
     if (kind == FeatureKind::kVertexFace)
       return paths[point == 0 ? pair.first : triangles[3 * std::size_t{pair.second} + (point - 1)]];

@@ -1,13 +1,14 @@
-// Directions that turn with the features that they part: where these turn, a fixed direction is used up long before
-// they meet, and a turning one stays good. For what fixed directions and coplanar times leave undecided.
+// Separating directions that turn along with the features. Where the features turn, a fixed direction stops separating
+// them long before they meet, and a turning one keeps doing so. Used for queries that fixed directions and coplanar
+// times leave undecided.
 #pragma once
 
 #include "core/continuous/parting.hpp"
 
 namespace broadside::continuous {
 
-// A direction: `first` at the beginning of the step and `last` at its end, linear between. The difference of two points
-// along it is quadratic in time.
+// A direction that changes linearly from `first` at the start of the step to `last` at its end. The difference of two
+// points along it is quadratic in time.
 struct Turning {
   Triple<double> first;
   Triple<double> last;
@@ -19,12 +20,13 @@ BROADSIDE_HD double bound_of(const Triple<double>& d, const Triple<double>& x) {
   return kRounding * dot(magnitude(d), magnitude(x)) + kUnderflow;
 }
 
-// The quadratic's Bernstein coefficients on the step, and what rounding may have taken from any value of it.
+// The quadratic's Bernstein coefficients on the step, and the most that rounding may have taken from any of its values.
 struct Along {
   double begin, middle, end;
   double doubt;
 
-  // The blossom: its value where both times are equal, and between two times the middle coefficient on that interval.
+  // The blossom. With both times equal it is the quadratic's value; with two times, the middle coefficient on that
+  // interval.
   BROADSIDE_HD double at(double s, double t) const {
     return (1.0 - s) * ((1.0 - t) * begin + t * middle) + s * ((1.0 - t) * middle + t * end);
   }
@@ -36,7 +38,7 @@ BROADSIDE_HD Along along(const Turning& d, const Triple<double>& start, const Tr
   out.middle = 0.5 * (dot(d.first, end) + dot(d.last, start));
   out.end = dot(d.last, end);
   const double middles = bound_of(d.first, end) + bound_of(d.last, start);
-  // Rounding of the coefficients, which the bounds are, and at most ten more roundings of values that are no larger.
+  // The bounds cover rounding of the coefficients; at most ten more roundings follow, of values that are no larger.
   out.doubt = 3.0 * (bound_of(d.first, start) + middles + bound_of(d.last, end));
   return out;
 }
@@ -60,8 +62,8 @@ BROADSIDE_HD Triple<double> unit(const Triple<double>& d) {
   return squared > 0.0 ? (1.0 / sqrt(squared)) * d : d;
 }
 
-// As parted_until. The zeros are only estimates: the interval up to a time before them counts when all its Bernstein
-// coefficients are above the doubt.
+// As parted_until, for a turning direction. The zeros are only estimates: the interval up to a time before them is
+// accepted when all Bernstein coefficients on it are above the doubt.
 template <int kCount>
 BROADSIDE_HD double parted_while_turning(const Differences<double, kCount>& x, const Turning& d, double time) {
   using namespace turning_detail;

@@ -1,5 +1,5 @@
-// What an engine offers beside Dynamics when the scene decides what it is: bodies that translate are one method, bodies
-// that turn another.
+// What an engine offers besides Dynamics when its method depends on the scene: one method where bodies translate,
+// another where they turn.
 #pragma once
 
 #include <cstdint>
@@ -16,9 +16,9 @@ class ChosenByScene {
   virtual ~ChosenByScene() = default;
 
   [[nodiscard]] virtual Declaration declaration_for(const Scene& scene) const = 0;
-  // As Dynamics::groups, which is right for a scene after it was loaded.
+  // Like Dynamics::groups, which is correct only after a scene was loaded.
   [[nodiscard]] virtual std::uint32_t groups_for(const Scene& scene) const = 0;
-  // What its digests are of, for /provenance/notes@digest; empty = what SCHEMA.md says.
+  // What its digests cover, for /provenance/notes@digest; empty = what SCHEMA.md says.
   [[nodiscard]] virtual std::string digest_note_for(const Scene& scene) const = 0;
 };
 

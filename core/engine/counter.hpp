@@ -7,7 +7,8 @@
 
 namespace broadside::core {
 
-// Since load. Only what the scene, the settings and the program determine: no time, no count that depends on threads.
+// Counted since load. Only quantities that the scene, the settings and the program determine: no times, and no count
+// that depends on threads.
 struct Counter {
   std::string_view name;  // static storage: "box tests", "nodes visited", "launches", "bytes moved"
   std::uint64_t count = 0;

@@ -32,7 +32,7 @@ bool is_count(std::string_view text) {
          std::all_of(text.begin(), text.end(), [](char c) { return c >= '0' && c <= '9'; });
 }
 
-// What to do about a value that the key does not take; empty when it takes it.
+// Advice for a value that the key does not accept; empty when it accepts it.
 std::string advice_for(const DeclarationKey& row, const std::string& text) {
   switch (row.kind) {
     case kWord:

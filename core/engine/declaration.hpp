@@ -1,4 +1,4 @@
-// What an engine says of itself, so that laws are chosen by what it declares and never by its name.
+// What an engine declares about itself, so that laws are chosen by its declaration and never by its name.
 #pragma once
 
 #include <map>
@@ -19,14 +19,14 @@ enum class DeclaredValue {
   kNumber,  // a finite number of 0 or more, in the unit of the key's name
 };
 
-// One key of a declaration, in the one table of keys.
+// One key of a declaration. There is one table of all keys.
 struct DeclarationKey {
   std::string_view key;
   DeclaredValue kind = DeclaredValue::kWord;
-  // Where nothing is declared: what a correct engine of the plainest kind would declare.
+  // The value where nothing is declared: what a correct engine of the plainest kind would declare.
   std::string_view default_value;
-  std::vector<std::string_view> allowed;  // of kWord
-  std::string_view what;                  // what it says, and which laws read it
+  std::vector<std::string_view> allowed;  // the words that kWord accepts
+  std::string_view what;                  // what the key says, and which laws read it
 };
 
 std::span<const DeclarationKey> declaration_keys();
@@ -35,9 +35,9 @@ inline constexpr std::string_view kMethodName = "octree-aabb";
 
 class Declaration {
  public:
-  // Nothing is declared.
+  // A declaration in which nothing is declared.
   Declaration() = default;
-  // An unknown key, an unknown word or a number that is none is an error that names what is known.
+  // An unknown key, an unknown word or text that is not a number is an error that names the known ones.
   static Result<Declaration> parse(const std::map<std::string, std::string>& given, const std::string& where);
   // For declarations that are written in this tree: a wrong one ends the program.
   static Declaration of(const std::map<std::string, std::string>& given);

@@ -1,4 +1,4 @@
-// Boxes that lie on the device already, and pairs that stay there: for callers who work on the same device.
+// Boxes that are already on the device, and pairs that stay there: for callers that work on the same device.
 #pragma once
 
 #include <cstddef>
@@ -10,33 +10,33 @@
 
 namespace broadside::core {
 
-// Of the device that the engine runs on. `data`: [count][6] float32, min x y z, max x y z, aligned to 4 bytes.
+// Boxes on the device that the engine runs on. `data`: [count][6] float32, min x y z, max x y z, aligned to 4 bytes.
 struct DeviceBoxes {
   const float* data = nullptr;
   std::size_t count = 0;
-  // Whether the boxes may still be written by what `stream` (a cudaStream_t; null or 1 = the legacy default stream) was
-  // asked for so far. The engine then reads them after that.
+  // True when work already queued on `stream` (a cudaStream_t; null or 1 = the legacy default stream) may still write
+  // the boxes. The engine then reads them after that work.
   bool is_behind_stream = false;
   void* stream = nullptr;
 };
 
-// Memory of the engine: what stands there stays until its next load, update or find. In no order.
+// Pairs in memory of the engine, unchanged until its next load, update or find. In no particular order.
 struct DevicePairs {
   const Pair* data = nullptr;
   std::uint64_t count = 0;
   int device = 0;
 };
 
-// What a broad phase on a device offers beside BroadPhase (core/engine/broad_phase.hpp).
+// What a broad phase on a device offers besides BroadPhase (core/engine/broad_phase.hpp).
 class TakesDeviceBoxes {
  public:
   virtual ~TakesDeviceBoxes() = default;
 
-  // In the place of load and update; is_static is on the host. Both return when the boxes have been read: the caller
-  // may then write there again, from any stream. Errors are those of load and update.
+  // Replaces load and update; is_static is on the host. Both return once the boxes have been read: the caller may then
+  // overwrite them, from any stream. The errors are those of load and update.
   virtual Status load_on_device(const DeviceBoxes& boxes, std::span<const std::uint8_t> is_static) = 0;
   virtual Status update_on_device(const DeviceBoxes& boxes) = 0;
-  // After find(), which returns when the pairs are complete: any stream may read them.
+  // Called after find(), which returns when the pairs are complete: any stream may read them.
   [[nodiscard]] virtual Result<DevicePairs> pairs_on_device() const = 0;
 };
 

@@ -22,11 +22,12 @@ struct Engine {
   std::string id;
   std::string build;  // library and version really loaded, precision, SIMD: "Bullet 3.24, float"
   Settings settings;
-  Declaration declaration;                    // of its dynamics
+  Declaration declaration;                    // what its dynamics declares
   std::unique_ptr<BroadPhase> broad_phase;    // null = not offered
   std::unique_ptr<NarrowPhase> narrow_phase;  // null = not offered
   std::unique_ptr<Dynamics> dynamics;         // null = not offered
-  // How its world differs from this scene; null = nothing to say beyond its build. Any time after construction.
+  // How its world differs from this scene; null = nothing to say besides its build. May be called at any time after
+  // construction.
   std::function<EquivalenceCard(const Scene&)> equivalence;
   // Known defects of its library and how often they were met since construction; null = none are known.
   std::function<std::vector<DefectHits>()> defects;
@@ -39,8 +40,8 @@ struct EngineRow {
   std::string_view capabilities;  // "broad narrow dynamics", for listings
   std::string_view what;
   std::span<const SettingRow> settings;
-  // Recorded, timed and asked for pairs in a child process: what is built on other people's code may abort or hang.
-  // False for this project's own pipelines, the CPU twin among them.
+  // Whether recording, timing and pair queries run in a child process, because engines built on other libraries may
+  // abort or hang. False for this project's own pipelines, including the CPU twin.
   bool runs_in_child = true;
   Result<Engine> (*create)(const Settings& settings) = nullptr;
   // Why it cannot run here; empty when it can.

@@ -14,7 +14,7 @@ namespace broadside::core {
 struct EquivalenceFact {
   std::string property;  // "restitution rule"; the same words for the same thing in every engine
   std::string engine;    // what the engine does
-  std::string scene;     // what the scene asks for, where that is something else; empty = nothing differs
+  std::string scene;     // what the scene asks for, where it differs; empty = nothing differs
 
   [[nodiscard]] bool differs() const { return !scene.empty(); }
 };
@@ -30,11 +30,11 @@ struct DefectHits {
   std::uint64_t asked = 0;  // of how many
 };
 
-// As notes of a trace and its cell (TraceHeader::notes, Cell::notes), which reports read back.
+// Adds them as notes of a trace and its cell (TraceHeader::notes, Cell::notes), from which reports read them back.
 void add_notes(const EquivalenceCard& card, std::map<std::string, std::string>& notes);
 void add_notes(const std::vector<DefectHits>& defects, std::map<std::string, std::string>& notes);
 
-// What such a note says; nothing for any other note.
+// The fact that such a note holds; nothing for any other note.
 std::optional<EquivalenceFact> equivalence_of_note(std::string_view key, std::string_view text);
 std::optional<DefectHits> defect_of_note(std::string_view key, std::string_view text);
 

@@ -1,4 +1,5 @@
-// What an engine offers beside Dynamics when its frames lie on a device: copies that run while it steps on.
+// What an engine offers besides Dynamics when its frames are on a device: copies that run while it computes the next
+// step.
 #pragma once
 
 #include "core/result.hpp"
@@ -13,10 +14,10 @@ class FrameCopies {
  public:
   virtual ~FrameCopies() = default;
 
-  // Starts to copy the frame that the last step made, and returns; later steps do not touch what is copied. Waits only
-  // when the copy before the last is not finished yet. kDigest copies digest and counts only.
+  // Starts to copy the frame that the last step made, and returns; later steps do not change what is being copied.
+  // Waits only when the copy before the previous one is not finished yet. kDigest copies digest and counts only.
   virtual Status start_copy(RecordLevel level) = 0;
-  // Waits for the oldest copy under way, and gives what read_back would have given then.
+  // Waits for the oldest copy under way, and gives what read_back would have given when that copy was started.
   virtual Status finish_copy(FrameRecord& frame) = 0;
 };
 

@@ -1,4 +1,4 @@
-// Settings that are lengths: beside their words, their row allows any decimal number of meters.
+// Settings that are lengths: their row allows any decimal number of meters, in addition to its words.
 #pragma once
 
 #include <string_view>
@@ -7,8 +7,8 @@
 
 namespace broadside::core {
 
-// Stands in SettingRow::allowed for a length of 0 or more in meters, as "0.02". The same length always has the same
-// text in a stamp: "0.020" is kept as "0.02".
+// An entry of SettingRow::allowed that stands for a length of 0 or more in meters, as "0.02". The same length always
+// has the same text in a stamp: "0.020" is kept as "0.02".
 inline constexpr std::string_view kMeters = "METERS";
 
 // The setting in meters. Its value must be a length, not one of its words.

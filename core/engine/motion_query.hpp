@@ -1,5 +1,5 @@
-// What moves during one step in, the time of its first touch out: continuous collision queries, and how tables list the
-// engines that answer them.
+// Continuous collision queries: given how things move during one step, when do they first touch? And how tables list
+// the engines that answer them.
 #pragma once
 
 #include <cstddef>
@@ -17,7 +17,7 @@
 
 namespace broadside::core {
 
-// time: of the step, 0 to 1; 1 where there is no touch.
+// time: in units of the step, 0 to 1; 1 where there is no touch.
 struct FirstTouch {
   bool touches = false;
   double time = 1.0;
@@ -27,7 +27,8 @@ class FeatureMotionQuery {
  public:
   virtual ~FeatureMotionQuery() = default;
   virtual Result<FirstTouch> first_touch(const continuous::MovingFeatures& features) = 0;
-  // Many at once; as many places as features. What an engine does to answer many queries faster belongs here.
+  // Many queries at once; `found` has one entry per query. An engine's own way to answer many queries faster belongs
+  // here.
   virtual Status first_touches(std::span<const continuous::MovingFeatures> features, std::span<FirstTouch> found) {
     for (std::size_t k = 0; k < features.size(); ++k) {
       auto one = first_touch(features[k]);
@@ -39,7 +40,7 @@ class FeatureMotionQuery {
 };
 
 struct MovingBody {
-  std::uint32_t mesh = 0;  // of those that were loaded
+  std::uint32_t mesh = 0;  // index into the meshes that were loaded
   exact::RigidMotion motion;
 };
 
@@ -48,7 +49,8 @@ class BodyMotionQuery {
   virtual ~BodyMotionQuery() = default;
   // Not timed.
   virtual Status load(std::span<const std::shared_ptr<const Mesh>> meshes) = 0;
-  // Whether it moves bodies along this very path. Many move them on another one when they turn, or leave turning out.
+  // Whether it moves bodies along exactly this path. Many engines use another path for bodies that turn, or ignore
+  // turning.
   [[nodiscard]] virtual bool follows(const exact::RigidMotion& motion) const = 0;
   virtual Result<FirstTouch> first_touch(const MovingBody& a, const MovingBody& b) = 0;
 };
@@ -66,7 +68,8 @@ struct MotionEngineRow {
   std::string_view what;
   std::span<const SettingRow> settings;
   Result<MotionEngine> (*create)(const Settings& settings) = nullptr;
-  // It claims to miss no touch of features and never to be late; where it does, nothing else of it counts.
+  // It claims to miss no touch of features and never to report one late; if that claim fails, none of its results
+  // count.
   bool is_certified = false;
 };
 

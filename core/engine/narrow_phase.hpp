@@ -18,8 +18,8 @@ struct Pose {
   Quat orientation;
 };
 
-// Of surfaces: distance < 0 is penetration, 0 touching or overlap of unknown depth. Normal: unit, from B to A (A = i,
-// B = j); zero when the engine gives none. Witness points in the world frame, m.
+// Separation of two surfaces: distance < 0 is penetration, 0 touching or overlap of unknown depth. Normal: unit, from B
+// to A (A = i, B = j); zero when the engine gives none. Witness points in the world frame, m.
 struct Separation {
   double distance_m = 0.0;
   bool is_touching = false;
@@ -32,11 +32,11 @@ class NarrowPhase {
  public:
   virtual ~NarrowPhase() = default;
 
-  // Not timed: builds per-mesh structures.
+  // Not timed: builds the structures of each mesh.
   virtual Status load(const Scene& scene) = 0;
   // Timed. poses has one entry per body of the scene.
   virtual Status measure(std::span<const Pair> pairs, std::span<const Pose> poses) = 0;
-  // Own zone. One separation per pair that was measured, in order.
+  // Has its own timing zone. One separation per measured pair, in order.
   virtual Result<std::vector<Separation>> read_back() = 0;
 };
 

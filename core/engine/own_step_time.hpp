@@ -1,5 +1,5 @@
-// What an engine offers beside Dynamics when it times its own steps: a program behind a pipe, whose wall time includes
-// the pipe.
+// What an engine offers besides Dynamics when it times its own steps, such as a program behind a pipe, whose wall time
+// includes the pipe.
 #pragma once
 
 namespace broadside::core {
@@ -9,7 +9,7 @@ class OwnStepTime {
  public:
   virtual ~OwnStepTime() = default;
 
-  // Seconds that the last step took by the engine's own clock; NaN where it does not tell.
+  // Seconds that the last step took by the engine's own clock; NaN where it does not report them.
   [[nodiscard]] virtual double last_step_s() const = 0;
 };
 

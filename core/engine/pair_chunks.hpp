@@ -1,4 +1,4 @@
-// Pairs handed to their consumer some at a time, for sets whose pairs do not fit in the memory of the engine's device.
+// Pairs passed to a consumer in chunks, for sets whose pairs do not fit in the memory of the engine's device.
 #pragma once
 
 #include <functional>
@@ -8,15 +8,15 @@
 
 namespace broadside::core {
 
-// Offered beside BroadPhase by engines that can find pairs in shares.
+// Offered besides BroadPhase by engines that can find pairs in chunks.
 class HandsPairsOn {
  public:
-  // What it returns ends the search where it is an error.
+  // When it returns an error, the search ends with that error.
   using Consumer = std::function<Status(const DevicePairs&)>;
 
   virtual ~HandsPairsOn() = default;
-  // The pairs of the boxes of the last load or update, each once and in no order. They stand in the engine's memory
-  // until `take` returns.
+  // Finds the pairs of the boxes of the last load or update, each once and in no particular order. The pairs of a chunk
+  // stay in the engine's memory until `take` returns.
   virtual Status hand_on(const Consumer& take) = 0;
 };
 

@@ -1,4 +1,5 @@
-// What an engine offers beside Dynamics when the host need not come back between two steps: many of them in one call.
+// What an engine offers besides Dynamics when it can run many steps in one call, without returning to the host in
+// between.
 #pragma once
 
 #include <cstdint>
@@ -14,11 +15,13 @@ class RunsAhead {
  public:
   virtual ~RunsAhead() = default;
 
-  // Called after each step, in order; stage_times() and counters() then describe that step, and nothing else may be
-  // asked. Returns false to stop: no further step begins, and steps that are under way end without a call.
+  // Called after each step, in order. During the call, stage_times() and counters() describe that step, and no other
+  // function may be called. Returns false to stop: no further step begins, and steps that are under way end without a
+  // call.
   using StepDone = std::function<bool()>;
 
-  // Like that many step(dt_s), but a step may begin before the last one was reported. Returns when all are complete.
+  // Like that many calls of step(dt_s), but a step may begin before the previous one was reported. Returns when all
+  // steps are complete.
   virtual Status run(float dt_s, std::uint64_t steps, const StepDone& step_done) = 0;
 };
 

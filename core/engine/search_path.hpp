@@ -1,15 +1,16 @@
-// Which way a broad phase took, where it has more than one.
+// Which search method a broad phase used, where it has more than one.
 #pragma once
 
 #include <string>
 
 namespace broadside::core {
 
-// Offered beside BroadPhase by engines that choose how they search by what the boxes are like.
+// Offered besides BroadPhase by engines that choose their search method from properties of the boxes.
 class TellsPath {
  public:
   virtual ~TellsPath() = default;
-  // Of the boxes of the last load or update: "one tree over the boxes as they are". For people; nothing reads it.
+  // The method for the boxes of the last load or update: "one tree over the boxes as they are". For people to read; no
+  // code parses it.
   [[nodiscard]] virtual std::string path() const = 0;
 };
 

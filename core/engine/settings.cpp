@@ -20,7 +20,7 @@ bool is_whole_number(const std::string& text) {
 }
 
 // The shortest text of the same number, so that "0.020" and "0.02" are one setting with one stamp; nothing when the
-// text is no length.
+// text is not a length.
 std::optional<std::string> length_text(const std::string& text) {
   double meters = 0.0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), meters);
@@ -31,7 +31,7 @@ std::optional<std::string> length_text(const std::string& text) {
   return std::string(shortest.data(), written.ptr);
 }
 
-// What a setting is kept as; nothing when it is not allowed.
+// The text under which a setting is stored; nothing when the value is not allowed.
 std::optional<std::string> value_of(const SettingRow& row, const std::string& text) {
   if (row.allowed.empty()) return is_whole_number(text) ? std::optional(text) : std::nullopt;
   const auto is_listed = [&](std::string_view word) {

@@ -18,9 +18,9 @@ SpaceCut cut_along(int axis, const std::vector<Box>& sample, std::uint32_t parts
   return cut;
 }
 
-// Boxes of the largest part.
+// The number of boxes in the largest part.
 std::size_t largest_part(const SpaceCut& cut, const std::vector<Box>& sample) {
-  // Changes of the number of boxes from part to part.
+  // Change in the number of boxes from each part to the next.
   std::vector<std::ptrdiff_t> change(cut.parts() + std::size_t{1});
   for (const Box& b : sample) {
     ++change[cut.part_at(b.min[cut.axis])];
@@ -63,7 +63,7 @@ void keep_own_pairs(const SpaceCut& cut, std::uint32_t part, const BoxPart& boxe
   std::size_t kept = 0;
   for (const Pair p : pairs)
     if (cut.part_of_pair(boxes.boxes[p.i], boxes.boxes[p.j]) == part)
-      // The part's boxes are in the set's order, so i < j stays.
+      // The part's boxes are in the set's order, so i < j still holds.
       pairs[kept++] = {boxes.ids[p.i], boxes.ids[p.j]};
   pairs.resize(kept);
 }

@@ -1,4 +1,4 @@
-// The stages of a simulated frame, in their order, and their names in reports: the same on the CPU and on the GPU.
+// The stages of a simulated frame, in order, and their names in reports: the same on the CPU and on the GPU.
 #pragma once
 
 #include <array>
@@ -8,7 +8,7 @@
 
 namespace broadside::core {
 
-// Sections are METHOD's.
+// The numbers are sections of METHOD.
 enum class Stage : std::uint8_t {
   kIntegrate,  // 1: semi-implicit Euler, then boxes
   kBroad,      // 2: candidate pairs

@@ -1,4 +1,4 @@
-// What an engine offers beside its capability when counting its work takes time: it counts only when asked to.
+// What an engine offers besides its capability when counting its work costs time: it counts only when asked to.
 #pragma once
 
 namespace broadside::core {
@@ -9,7 +9,7 @@ class CountsWork {
  public:
   virtual ~CountsWork() = default;
 
-  // From the next load on, counters() also has the counts that take time to make.
+  // From the next load on, counters() also has the counts that cost time.
   virtual void count_work() = 0;
 };
 

@@ -9,10 +9,10 @@
 namespace broadside::exact {
 namespace {
 
-// Directions closer to parallel than this count as one direction: the axis between them would be made of rounding
+// Directions closer to parallel than this count as one direction. The axis between them would consist of rounding
 // alone, and leaving it out changes a depth of 1 m by less than 1e-9 m.
 constexpr double kParallel = 1e-9;
-// Below this a direction between nearest points is made of rounding, m.
+// Below this length, a direction between nearest points consists of rounding, m.
 constexpr double kNoDirection = 1e-12;
 
 Point unit(Point p) {
@@ -64,7 +64,7 @@ ConvexCore box(core::Vec3 half) {
   for (std::uint32_t bit = 1; bit < 8; bit *= 2) {
     const std::uint32_t u = bit == 4 ? 1 : 2 * bit;
     const std::uint32_t w = u == 4 ? 1 : 2 * u;
-    // u x w points along +bit, so these turn outward.
+    // u x w points along +bit, so these triangles face outward.
     core.faces.push_back({bit, bit | u, bit | u | w});
     core.faces.push_back({bit, bit | u | w, bit | w});
     core.faces.push_back({0, u | w, u});
@@ -109,7 +109,7 @@ void keep(Nearest& best, const Nearest& found) {
   if (found.squared_m2 < best.squared_m2) best = found;
 }
 
-// Nearest points of the surfaces of two cores, or of the segments or points that stand for a surface.
+// Nearest points of the surfaces of two cores. A core may be a segment or a point that stands for a surface.
 Nearest nearest_features(const ConvexCore& a, const ConvexCore& b) {
   Nearest best{std::numeric_limits<double>::infinity(), {}, {}};
   for (const Point p : a.vertices) {
@@ -132,7 +132,7 @@ Nearest nearest_features(const ConvexCore& a, const ConvexCore& b) {
   return best;
 }
 
-// Any direction across both segments: cores without faces are parted by every such direction.
+// Any direction normal to both segments: every such direction separates cores without faces.
 Point across(const ConvexCore& a, const ConvexCore& b) {
   std::vector<Point> along = a.directions;
   along.insert(along.end(), b.directions.begin(), b.directions.end());

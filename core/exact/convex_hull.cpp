@@ -61,7 +61,7 @@ class Quickhull {
     return best;
   }
 
-  // Four points far from each other, as a tetrahedron that looks outward.
+  // Starts with four points far from each other, as a tetrahedron whose triangles face outward.
   bool start() {
     if (p_.size() < 4) return false;
     const std::uint32_t a = farthest([&](std::uint32_t i) { return -p_[i].x; });
@@ -85,7 +85,7 @@ class Quickhull {
     return true;
   }
 
-  // Each point goes to the first face, from `first` on, that it is in front of; the others are inside.
+  // Assigns each point to the first face, from `first` on, that it is in front of; the other points are inside.
   void share_out(const std::vector<std::uint32_t>& points, std::size_t first) {
     for (const std::uint32_t i : points)
       for (std::size_t f = first; f < faces_.size(); ++f)
@@ -95,7 +95,7 @@ class Quickhull {
         }
   }
 
-  // Replaces the faces that see the farthest point in front of f by a fan from it to their rim.
+  // Replaces the faces that are visible from the farthest point in front of f by a fan from that point to their rim.
   bool add_farthest(std::uint32_t f) {
     const auto& outside = faces_[f].outside;
     const std::uint32_t top = *std::max_element(outside.begin(), outside.end(), [&](std::uint32_t i, std::uint32_t j) {
@@ -131,7 +131,7 @@ class Quickhull {
   template <typename Rims>
   bool add_fan(const Rims& rim, std::uint32_t top) {
     const auto first = static_cast<std::uint32_t>(faces_.size());
-    std::map<std::uint32_t, std::uint32_t> leaving;  // the new face whose rim edge starts at a point
+    std::map<std::uint32_t, std::uint32_t> leaving;  // by point: the new face whose rim edge starts there
     for (std::uint32_t k = 0; k < rim.size(); ++k)
       if (!leaving.emplace(rim[k].from, first + k).second) return false;  // the rim is no single loop
     for (const auto& r : rim) {

@@ -1,4 +1,4 @@
-// The convex hull of points: the body whose inertia stands for that of an open mesh.
+// The convex hull of points: its inertia is used in place of an open mesh's.
 #pragma once
 
 #include <optional>
@@ -8,9 +8,9 @@
 
 namespace broadside::exact {
 
-// Closed, triangles outward; vertices are the given points, triangles the hull's. By Barber, Dobkin and Huhdanpaa (The
-// Quickhull Algorithm for Convex Hulls, 1996), in double. Points within 2^-40 of the size of a face count as on it.
-// Nothing when all points lie in one plane to that measure.
+// The hull is closed with triangles facing outward; its vertices are the given points. Computed in double by Barber,
+// Dobkin and Huhdanpaa (The Quickhull Algorithm for Convex Hulls, 1996). Points within 2^-40 of the size of a face
+// count as on it. Nothing when all points lie in one plane to that tolerance.
 std::optional<core::Mesh> convex_hull(const std::vector<core::Vec3>& points);
 
 }  // namespace broadside::exact

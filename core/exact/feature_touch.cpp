@@ -33,14 +33,14 @@ Vector place_of(const IntegerMotion& motion, int point) {
   return out;
 }
 
-// Nothing when the vector is zero; else an axis along which a plane with this normal is not seen edge on.
+// An axis along which a plane with this normal is not seen edge on; nothing when the vector is zero.
 int axis_not_zero(const Vector& v, Root& at) {
   for (int axis = 0; axis < 3; ++axis)
     if (sign_at(v[axis], at) != 0) return axis;
   return -1;
 }
 
-// x in the closed segment p q, which may be a point: on its line, and between its ends on each axis.
+// Whether x is in the closed segment p q, which may be a point: on its line, and between its ends on each axis.
 bool is_in_segment(const Vector& x, const Vector& p, const Vector& q, Root& at) {
   if (axis_not_zero(cross(q - p, x - p), at) >= 0) return false;
   for (int axis = 0; axis < 3; ++axis)
@@ -48,8 +48,9 @@ bool is_in_segment(const Vector& x, const Vector& p, const Vector& q, Root& at) 
   return true;
 }
 
-// Both triangles and segments are taken apart into signs of polynomials in time: `volume` of the four points, zero when
-// they lie in one plane; the turns of three of them as seen along an axis; and differences on one axis.
+// Tests of both kinds of features are reduced to signs of polynomials in time: `volume` of the four points, which is
+// zero when they lie in one plane; the turning direction of three of them seen along an axis; and differences on one
+// axis.
 struct VertexFace {
   Vector p, a, b, c;
   Vector u, v, w;  // b, c and p from a
@@ -60,7 +61,7 @@ struct VertexFace {
     volume = dot(cross(u, v), w);
   }
 
-  // The four points lie in one plane.
+  // Precondition: the four points lie in one plane.
   [[nodiscard]] bool touch(Root& at) const {
     const Vector normal = cross(u, v);
     const int axis = axis_not_zero(normal, at);
@@ -70,7 +71,7 @@ struct VertexFace {
            turn * sign_at(cross(w, v)[axis], at) >= 0;
   }
 
-  // Between neighboring roots of these no sign above changes.
+  // Between neighboring roots of these polynomials, no sign used above changes.
   [[nodiscard]] std::vector<IntegerCubic> events() const {
     std::vector<IntegerCubic> out;
     for (const Vector& f : {cross(u, v), cross(u, w), cross(v - u, w - u), cross(w, v), w, p - b, p - c})
@@ -94,7 +95,7 @@ struct EdgeEdge {
     if (axis < 0)  // parallel, or one is a point
       return is_in_segment(a, p, q, at) || is_in_segment(b, p, q, at) || is_in_segment(p, a, b, at) ||
              is_in_segment(q, a, b, at);
-    // Each line has the other edge's ends on both sides, or on it.
+    // Each line has the other edge's ends on opposite sides, or an end on it.
     return sign_at(cross(u, w)[axis], at) * sign_at(cross(u, b - p)[axis], at) <= 0 &&
            sign_at(cross(v, p - a)[axis], at) * sign_at(cross(v, q - a)[axis], at) <= 0;
   }
@@ -108,7 +109,7 @@ struct EdgeEdge {
   }
 };
 
-// A multiple of 2^-bits, at most 53 bits.
+// The number as a double; it is a multiple of 2^-bits with at most 53 bits.
 double fraction(const mpz_class& place, unsigned bits) {
   return std::ldexp(place.get_d(), -static_cast<int>(bits));
 }
@@ -126,7 +127,7 @@ TouchTime bracket(Root root, unsigned bits) {
 }
 
 // The set of times at which closed features touch is closed. So its least element is 0, or a time at which a sign
-// changes: a root of the volume, or where that is zero throughout, a root of one of the events.
+// changes: a root of the volume, or where the volume is zero throughout, a root of one of the events.
 template <typename Features>
 TouchTime first_touch_of(const Features& features, unsigned bits) {
   TouchTime first;

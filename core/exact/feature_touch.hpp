@@ -1,4 +1,5 @@
-// When two moving features first touch: exact, whatever the rounding. The arbiter of continuous collision queries.
+// When two moving features first touch: exact in spite of rounding. The reference answer for continuous collision
+// queries.
 #pragma once
 
 #include <array>
@@ -9,23 +10,23 @@
 
 namespace broadside::exact {
 
-// The bracket is as wide as the least step between doubles below 1.
+// The default width of a bracket: the smallest step between doubles below 1.
 inline constexpr unsigned kTouchBits = 53;
 
-// The first time at which the closed features have a point in common lies in [lower, upper]: between two multiples of
-// 2^-bits, or on one, and then both are that one. No touch in [0, 1]: touches is false.
+// The first time at which the closed features have a point in common lies in [lower, upper]. These are neighboring
+// multiples of 2^-bits, or equal when the time is such a multiple. Without a touch in [0, 1], touches is false.
 struct TouchTime {
   bool touches = false;
   double lower = 1.0;
   double upper = 1.0;
 };
 
-// In units of the step. Whether they touch is decided by the signs of integer polynomials at their exact roots, after
-// the coordinates were scaled to integers; so it holds for parallel edges, features in one plane, triangles that are
-// segments, and points that do not move. Coordinates are finite; bits is at most kTouchBits.
+// Times are in units of the step. Coordinates are scaled to integers, and the signs of integer polynomials at their
+// exact roots decide whether the features touch. So the answer is exact also for parallel edges, features in one plane,
+// triangles that are segments, and points that do not move. Coordinates are finite; bits is at most kTouchBits.
 TouchTime first_touch(const continuous::MovingFeatures& features, unsigned bits = kTouchBits);
 
-// A coordinate as two integers in decimal digits of any number, the second above zero.
+// A coordinate as a fraction of two integers in decimal, with any number of digits; the second is above zero.
 struct RationalText {
   std::string numerator;
   std::string denominator = "1";
@@ -35,11 +36,11 @@ struct RationalFeatures {
   std::array<std::array<RationalText, 3>, 8> points;  // four at the start, four at the end
 };
 
-// The nearest doubles: what an engine can be asked about.
+// The nearest doubles, which an engine can be asked about.
 core::Result<continuous::MovingFeatures> rounded(const RationalFeatures& features);
-// Doubles as they are.
+// The same doubles as fractions, exactly.
 RationalFeatures to_rational(const continuous::MovingFeatures& features);
-// Errors name the point and the axis of a coordinate that is no fraction.
+// An error names the point and the axis of a coordinate that is not a fraction.
 core::Result<TouchTime> first_touch(const RationalFeatures& features, unsigned bits = kTouchBits);
 
 }  // namespace broadside::exact

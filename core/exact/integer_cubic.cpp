@@ -6,10 +6,10 @@
 namespace broadside::exact {
 namespace {
 
-// Roots that are still in one interval of this width are rather a double root than two: then the common divisor with
-// the derivative is taken out. Any other depth gives the same roots.
+// Roots that are still in one interval of this width are more likely one double root than two roots. Then the common
+// divisor with the derivative is divided out. Any other depth gives the same roots.
 constexpr unsigned kDoubtfulBits = 24;
-// How far signs are tried by intervals before the common divisor is formed.
+// Signs are first tried by intervals down to this width, before the common divisor is computed.
 constexpr unsigned kTriedBits = 16;
 
 int degree(const IntegerCubic& p) {
@@ -67,7 +67,8 @@ void make_primitive(IntegerCubic& p) {
     for (mpz_class& c : p.of_power) c /= common;
 }
 
-// A multiple of a by some power of b's leading coefficient, less a multiple of b, of lower degree than b.
+// Polynomial remainder: a times some power of b's leading coefficient, minus a multiple of b; its degree is lower than
+// b's.
 IntegerCubic remainder(IntegerCubic a, const IntegerCubic& b) {
   const int low = degree(b);
   for (int k = degree(a); k >= low; --k) {
@@ -91,7 +92,7 @@ IntegerCubic common_divisor(IntegerCubic a, IntegerCubic b) {
   return a;
 }
 
-// a divides exactly: both are primitive.
+// Precondition: the division is exact; both are primitive.
 IntegerCubic quotient(IntegerCubic a, const IntegerCubic& b) {
   IntegerCubic out;
   const int low = degree(b);
@@ -111,7 +112,7 @@ Root exact_root(const IntegerCubic& p, const mpz_class& place, unsigned bits) {
   return {p, place, bits, 0, true};
 }
 
-// False when roots are too close to tell apart.
+// Returns false when roots are too close to separate.
 bool isolate(const IntegerCubic& p, const mpz_class& place, unsigned bits, unsigned most_bits,
              std::vector<Root>& roots) {
   const auto b = bernstein(within(p, place, bits));
@@ -184,7 +185,7 @@ int sign_at(const IntegerCubic& polynomial, Root& root) {
     const auto [least, most] = std::minmax_element(b.begin(), b.end());
     if (*least > 0 || *most < 0) return sgn(*least);
     if (!is_surely_other && root.bits >= tried) {
-      // A common root of both is a root of their common divisor, which has no other root in the interval.
+      // A common root of both is a root of their common divisor. The divisor has no other root in the interval.
       const IntegerCubic common = common_divisor(polynomial, root.polynomial);
       if (sign_changes(bernstein(within(common, root.place, root.bits))) % 2 != 0) return 0;
       is_surely_other = true;

@@ -16,20 +16,20 @@ struct IntegerCubic {
 
 IntegerCubic operator+(const IntegerCubic& a, const IntegerCubic& b);
 IntegerCubic operator-(const IntegerCubic& a, const IntegerCubic& b);
-// The sum of both degrees is at most three.
+// Precondition: the sum of both degrees is at most three.
 IntegerCubic operator*(const IntegerCubic& a, const IntegerCubic& b);
 
-// One root. Exact: t = place / 2^bits. Otherwise it is the only root of the polynomial in the open interval from
-// place / 2^bits to (place + 1) / 2^bits, and simple.
+// One root. When exact, t = place / 2^bits. Otherwise it is the only root of the polynomial in the open interval from
+// place / 2^bits to (place + 1) / 2^bits, and it is simple.
 struct Root {
   IntegerCubic polynomial;
   mpz_class place;
   unsigned bits = 0;
-  int sign_before = 0;  // of the polynomial between the interval's beginning and the root
+  int sign_before = 0;  // sign of the polynomial between the interval's beginning and the root
   bool is_exact = false;
 };
 
-// All roots in the closed interval [0, 1] of a polynomial that is not zero, in no order.
+// All roots in the closed interval [0, 1] of a polynomial that is not zero, in no particular order.
 std::vector<Root> roots_in_step(const IntegerCubic& polynomial);
 
 // Halves the interval until it is 2^-bits wide or the root is exact.

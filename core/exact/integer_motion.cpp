@@ -11,7 +11,7 @@ namespace {
 
 constexpr int kDigits = std::numeric_limits<double>::digits;
 
-// x = mantissa 2^exponent with an odd mantissa, or 0.
+// x = mantissa 2^exponent with an odd mantissa; or 0.
 struct Dyadic {
   std::int64_t mantissa = 0;
   int exponent = 0;
@@ -63,7 +63,7 @@ core::Result<Fractions> fractions(const RationalFeatures& features) {
   return out;
 }
 
-// mpq's own conversion cuts off; the nearest double is that or the next one away from zero.
+// mpq's own conversion truncates; the nearest double is the result or the next one away from zero.
 double nearest_double(const mpq_class& x) {
   const double cut = x.get_d();
   const double next = std::nextafter(cut, sgn(x) * std::numeric_limits<double>::infinity());

@@ -1,4 +1,4 @@
-// Moving points whose coordinates were scaled to integers: by one factor for all, which changes no time.
+// Moving points whose coordinates were scaled to integers, all by one factor, which leaves times unchanged.
 #pragma once
 
 #include <gmpxx.h>

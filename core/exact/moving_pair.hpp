@@ -1,4 +1,4 @@
-// Two moving bodies at one time of their step: are they parted, until when at least, do they overlap?
+// Two moving bodies at one time of their step: are they separated, until when at least, and do they overlap?
 #pragma once
 
 #include <limits>
@@ -15,8 +15,8 @@ struct MovingShape::Parts {
   double reach_m = 0.0;
 };
 
-// until: no touch from this time to that one; 2 for the rest of the step. gap_m: along the direction that proves it, of
-// the parts that are used up first.
+// until: no touch from the measured time to that one; 2 for the rest of the step. gap_m: the gap along the direction
+// that proves it, between the parts whose separation is proved for the shortest time.
 struct Parting {
   double until = 2.0;
   double gap_m = std::numeric_limits<double>::infinity();
@@ -26,7 +26,7 @@ class MovingPair {
  public:
   virtual ~MovingPair() = default;
   virtual Parting parting_at(double time) = 0;
-  // For sure: deeper than rounding.
+  // True only when the overlap is certain: deeper than rounding.
   virtual bool overlap_at(double time) = 0;
 };
 

@@ -7,16 +7,16 @@
 namespace broadside::exact {
 namespace {
 
-// Each halving is rather a step of Newton's method and of the chord: as many are enough for any curve.
+// Each step takes one step of Newton's method and one of the chord, not a halving: this many suffice for any curve.
 constexpr int kRootSteps = 10;
-// The time found is this near to the zero of the bound, as a share of the step. It decides how often bodies are
-// measured, nothing else.
+// The search stops when the time is this near to the zero of the bound, as a share of that time. It only affects how
+// often bodies are measured.
 constexpr double kNearEnough = 1e-4;
 
-// Of a chord's length: so far before its zero that rounding leaves the bound above zero there.
+// The share of a chord's length that is taken: short enough that rounding leaves the bound above zero there.
 constexpr double kBeforeZero = 1.0 - 0x1p-20;
 
-// Signed distances of points from the plane through B's origin now, and their rates.
+// The signed distance of a point from the plane through B's current origin, and its rate of change.
 struct Line {
   double value;
   double rate;
@@ -28,7 +28,8 @@ Line line_of(const MovingPoints& body, Point p, Point normal, Point turned, cons
   return {dot(normal, from), dot(turned, from) + dot(normal, velocity)};
 }
 
-// The lower envelope of A's lines less the upper one of B's, less what bends: concave in the time ahead.
+// The lower envelope of A's lines, minus the upper envelope of B's, minus the gap and the bend: concave in the time
+// ahead.
 struct Bound {
   std::vector<Line> a;
   std::vector<Line> b;
@@ -44,7 +45,8 @@ struct Bound {
   }
 };
 
-// How much the distance of a body's point from the plane can bend: |(n . x)''| <= |n''| |x| + 2 |n'| |x'| + |x''|.
+// Bounds the second derivative of the distance of a body's point from the plane: |(n . x)''| <= |n''| |x| + 2 |n'| |x'|
+// + |x''|.
 double bend_of(const MovingPoints& body, const MovingPoints& b, double turn, double remaining) {
   const double spin = length(body.rotation_rad);
   const double drift = length(body.velocity_m - b.velocity_m);
@@ -76,7 +78,7 @@ double parted_until(const MovingPoints& a, const MovingPoints& b, Point normal, 
   if (!(low.value > 0.0)) return now;
   Line high = bound.at(remaining);
   if (high.value > 0.0) return 2.0;
-  // Concave: a chord's zero lies before the bound's, a tangent's behind it.
+  // The bound is concave: a chord's zero lies before the bound's zero, and a tangent's zero after it.
   double safe = 0.0;
   double late = remaining;
   for (int step = 0; step < kRootSteps && late - safe > kNearEnough * late; ++step) {

@@ -9,7 +9,7 @@
 namespace broadside::exact {
 namespace {
 
-// A sum of doubles that do not overlap, smallest first: its value is exact, its sign that of the last one.
+// A sum of nonoverlapping doubles, smallest first. Its value is exact, and its sign is that of the last one.
 template <std::size_t Capacity>
 struct Expansion {
   std::array<double, Capacity> term{};
@@ -136,7 +136,7 @@ int exact_orientation(Point a, Point b, Point c, Point d) {
   return sum(sum(first, second), third).sign();
 }
 
-// Sign of the turn a, b, c in the plane that is left when one axis is dropped.
+// Sign of the turn a, b, c in the plane that remains when one axis is dropped.
 int turn(Point a, Point b, Point c, int dropped) {
   const auto u = [&](Point p) { return dropped == 0 ? p.y : p.x; };
   const auto v = [&](Point p) { return dropped == 2 ? p.y : p.z; };
@@ -148,7 +148,7 @@ bool within(double x, double p, double q) {
   return std::min(p, q) <= x && x <= std::max(p, q);
 }
 
-// c lies on the line through a and b as seen along the dropped axis: is it between them?
+// Given that c lies on the line through a and b as seen along the dropped axis: is it between them?
 bool in_box(Point a, Point b, Point c, int dropped) {
   return (dropped == 0 || within(c.x, a.x, b.x)) && (dropped == 1 || within(c.y, a.y, b.y)) &&
          (dropped == 2 || within(c.z, a.z, b.z));
@@ -164,8 +164,8 @@ bool segments_meet_in_plane(Point p, Point q, Point a, Point b, int dropped) {
          (ap == 0 && in_box(a, b, p, dropped)) || (aq == 0 && in_box(a, b, q, dropped));
 }
 
-// Four points of one plane. A projection along an axis of the plane's normal gives the answer of space; other
-// projections can only err towards yes. So all three must say yes.
+// Segments meet only when their four points lie in one plane. Then a projection along an axis along which the plane is
+// not seen edge on gives the exact answer; other projections can only err towards yes. So all three must say yes.
 bool segments_meet(Point p, Point q, Point a, Point b) {
   if (orientation(p, q, a, b) != 0) return false;
   for (int dropped = 0; dropped < 3; ++dropped)
@@ -173,7 +173,7 @@ bool segments_meet(Point p, Point q, Point a, Point b) {
   return true;
 }
 
-// p is in the triangle's plane, or the triangle has none.
+// Precondition: p is in the triangle's plane, or the triangle has no area.
 bool is_in_triangle(Point p, const Corners& t) {
   for (int dropped = 0; dropped < 3; ++dropped) {
     const int a = turn(t[0], t[1], p, dropped);
@@ -181,7 +181,7 @@ bool is_in_triangle(Point p, const Corners& t) {
     const int c = turn(t[2], t[0], p, dropped);
     if (std::max({a, b, c}) > 0 && std::min({a, b, c}) < 0) return false;
   }
-  // Inside a triangle with area. The edges of a triangle without area are tested by the caller.
+  // Inside a triangle that has area. The caller tests the edges of a triangle without area.
   for (int dropped = 0; dropped < 3; ++dropped)
     if (turn(t[0], t[1], t[2], dropped) != 0) return true;
   return false;

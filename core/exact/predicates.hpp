@@ -1,4 +1,4 @@
-// Signs that are right whatever the rounding: orientation of points, and whether two triangles meet.
+// Signs that are right in spite of rounding: orientation of points, and whether two triangles meet.
 #pragma once
 
 #include "core/exact/triangle_distance.hpp"

@@ -15,7 +15,7 @@ Placement placement_at(const RigidMotion& motion, double t) {
   out.origin = out.origin + t * motion.displacement_m;
   const double angle = length(motion.rotation_rad);
   if (!(angle > 0.0)) return out;
-  // The turn by t angle about the axis, and then what was there at the start behind it.
+  // The rotation by t angle about the axis, applied after the orientation at the start.
   const double half = 0.5 * t * angle;
   const double w = std::cos(half);
   const Point v = (std::sin(half) / angle) * motion.rotation_rad;

@@ -15,8 +15,8 @@ struct RigidMotion {
 // t: 0 to 1.
 Placement placement_at(const RigidMotion& motion, double t);
 
-// By how much the coordinates of a placed point may be off: the share of double's rounding that a rotation and a sum
-// take (some forty roundings), times the size of what they work on. reach_m: the farthest point of the body from its
+// Bound of the error of a placed point's coordinates: the relative rounding of double that a rotation and a sum
+// accumulate (some forty roundings), times the size of their operands. reach_m: the farthest point of the body from its
 // origin.
 double placing_error_m(const RigidMotion& motion, double reach_m);
 

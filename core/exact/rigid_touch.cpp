@@ -7,15 +7,16 @@
 namespace broadside::exact {
 namespace {
 
-// Of the sizes of both bodies.
+// Relative to the sizes of both bodies.
 constexpr double kTolerance = 1e-9;
-// A step of less than this share of the whole ends the search for the first touch.
+// A step shorter than this share of the whole ends the search for the first touch.
 constexpr double kLeastStep = 0x1p-46;
-// Bodies that slide along each other at a hair's width take steps as small as that; after so many the rest of the step
-// is left undecided.
+// Bodies that slide along each other at a tiny distance take tiny steps. After this many measurements the rest of the
+// step is left undecided.
 constexpr std::uint32_t kMostMeasurements = 4000;
 
-// The time at which they surely overlap, as early as halving finds it: not before, sure not.
+// The earliest time that halving finds at which they certainly overlap. Precondition: no certain overlap at `before`, a
+// certain one at `surely`.
 double first_overlap(MovingPair& pair, double before, double surely, std::uint32_t& measurements) {
   while (surely - before > kLeastStep) {
     const double middle = 0.5 * (before + surely);
@@ -26,7 +27,7 @@ double first_overlap(MovingPair& pair, double before, double surely, std::uint32
   return surely;
 }
 
-// Goes on from `time`, at which they all but touch, by steps that double: until they overlap, or are parted again.
+// Continues from `time`, at which they almost touch, by steps that double: until they overlap or are apart again.
 struct Ahead {
   bool overlap = false;
   double time = 0.0;

@@ -17,19 +17,20 @@ enum class Meeting : std::uint8_t {
 
 struct RigidTouch {
   Meeting meeting = Meeting::kApart;
-  double lower = 1.0;  // no touch before: proved, in units of the step
-  double upper = 1.0;  // they overlap then
+  double lower = 1.0;  // proved: no touch before this time, in units of the step
+  double upper = 1.0;  // they overlap at this time
   std::uint32_t measurements = 0;
 };
 
-// A body's shape in its own axes: a solid, where it is a box, sphere or capsule or convex, and its triangles. Two
-// solids are judged as such. Otherwise the surfaces of both are: a body inside one that it does not cross is apart from
-// it.
+// A body's shape in its own axes: its triangles, and a solid where it is a box, a sphere, a capsule or convex. Two
+// solids are judged as solids. Otherwise the surfaces of both are judged: a body inside another one, not crossing its
+// surface, is apart from it.
 class MovingShape {
  public:
   struct Parts;
 
-  // With as_solid, a mesh is the primitive that it draws (core/scene/primitive.hpp), or its hull when it is convex.
+  // With as_solid, a mesh becomes the primitive that it represents (core/scene/primitive.hpp), or its hull when it is
+  // convex.
   MovingShape(const core::Mesh& mesh, bool as_solid);
 
   [[nodiscard]] bool is_solid() const;
@@ -40,8 +41,8 @@ class MovingShape {
   std::shared_ptr<const Parts> parts_;
 };
 
-// Nearer than this the search for the first touch ends: 1e-9 of the sizes of both bodies. At `lower` they are no
-// farther apart along a direction that parts them.
+// The search for the first touch ends when the bodies are nearer than this: 1e-9 of the sizes of both bodies. At
+// `lower` they are no farther apart than this along a separating direction.
 double touch_tolerance_m(const MovingShape& a, const MovingShape& b);
 
 RigidTouch first_touch(const MovingShape& a, const RigidMotion& motion_a, const MovingShape& b,

@@ -22,7 +22,7 @@ bool share_a_vertex(const core::Triangle& p, const core::Triangle& q) {
   return false;
 }
 
-// Leaves p and q, which may be one leaf.
+// p and q are leaves; they may be the same leaf.
 bool cross_in(const TriangleTree& tree, const Node& p, const Node& q) {
   for (std::uint32_t i = p.first; i < p.first + p.count; ++i)
     for (std::uint32_t j = std::max(q.first, p.first == q.first ? i + 1 : q.first); j < q.first + q.count; ++j)
@@ -32,7 +32,7 @@ bool cross_in(const TriangleTree& tree, const Node& p, const Node& q) {
   return false;
 }
 
-// Every pair of leaves is met once: p = q splits into (left, left), (left, right), (right, right).
+// Visits every pair of leaves once: p = q splits into (left, left), (left, right), (right, right).
 bool cross_below(const TriangleTree& tree, std::uint32_t a, std::uint32_t b) {
   const Node& p = tree.nodes()[a];
   const Node& q = tree.nodes()[b];

@@ -1,12 +1,13 @@
-// Whether a mesh's surface crosses itself: then what it encloses, and so its inertia, is not defined.
+// Whether a mesh's surface crosses itself. Then its enclosed volume, and so its inertia, is undefined.
 #pragma once
 
 #include "core/scene/mesh.hpp"
 
 namespace broadside::exact {
 
-// Two triangles that share no vertex have a point in common, decided by exact predicates. Triangles that share a vertex
-// and cross beyond it are not looked for: their other neighbors cross too, but for folds of a single edge.
+// True when two triangles that share no vertex have a point in common, decided by exact predicates. Triangles that
+// share a vertex and cross beyond it are not searched for: except where a single edge is folded, other neighbors of
+// theirs cross too.
 bool crosses_itself(const core::Mesh& mesh);
 
 }  // namespace broadside::exact

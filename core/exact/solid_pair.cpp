@@ -7,8 +7,8 @@
 namespace broadside::exact {
 namespace {
 
-// Polytopes overlap for sure when the least depth is above this share of their sizes: directions closer to parallel
-// than 1e-9 are left out when the least depth is looked for (convex_core.cpp), a tenth of this.
+// Polytopes certainly overlap when the least depth is above this share of their sizes. The search for the least depth
+// leaves out directions closer to parallel than 1e-9 (convex_core.cpp), which is a tenth of this.
 constexpr double kSurelyDeep = 1e-8;
 
 class SolidPair final : public MovingPair {
@@ -33,7 +33,7 @@ class SolidPair final : public MovingPair {
     const double of_nearest = gap_along(a, b, normal);
     if (axis.gap > of_nearest) normal = axis.direction;
     const double gap = std::max(axis.gap, of_nearest) - radii;
-    // The normal turns on as it did since the last measurement.
+    // The normal is assumed to keep turning at the rate since the last measurement.
     Point turn;
     if (has_normal_ && time > time_before_) turn = (1.0 / (time - time_before_)) * cross(normal_before_, normal);
     has_normal_ = true;

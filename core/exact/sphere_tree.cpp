@@ -7,7 +7,8 @@
 namespace broadside::exact {
 namespace {
 
-// A radius is a root of sums of squares: some roundings more than the distance that it shall not be below.
+// A radius is the root of a sum of squares. This factor covers its few roundings more than the distance's, so that the
+// radius is never below the distance.
 constexpr double kNoLess = 1.0 + 0x1p-49;
 
 class Builder {

@@ -1,4 +1,4 @@
-// A mesh's triangles in double, under balls that turn with the body.
+// A tree of balls over a mesh's triangles, in double; the balls turn with the body.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +13,7 @@ struct SphereTree {
   struct Node {
     Point center;  // body axes
     double radius_m = 0.0;
-    std::uint32_t first = 0;  // leaf: its triangle; else: its first child, the second is next to it
+    std::uint32_t first = 0;  // leaf: its triangle; otherwise its first child, and the second follows it
     bool is_leaf = false;
   };
 

@@ -1,5 +1,5 @@
-// Surfaces of triangles: every pair of triangles that may be used up first is measured, the others are skipped by
-// balls.
+// Surfaces of triangles: measures every pair of triangles whose separation may be the first to end, and skips the
+// others by their balls.
 #include <algorithm>
 #include <array>
 #include <vector>
@@ -10,8 +10,8 @@
 namespace broadside::exact {
 namespace {
 
-// Triangles nearer than this share of their sizes are also parted along their normals and across their edges: there the
-// direction between nearest points is made of rounding.
+// Triangles nearer than this share of their sizes are also separated along their normals and directions across their
+// edges, because there the direction between nearest points consists of rounding.
 constexpr double kClose = 1e-6;
 
 class SurfacePair final : public MovingPair {
@@ -72,7 +72,7 @@ class SurfacePair final : public MovingPair {
     return length(between) - a.radius_m - b.radius_m - rounding_m_;
   }
 
-  // Neither ball's center moves faster than its body and its turn take it.
+  // Each ball's center moves no faster than its body's velocity and rotation together allow.
   [[nodiscard]] double balls_parted_until(const SphereTree::Node& a, const SphereTree::Node& b) const {
     const double gap = gap_of_balls(a, b);
     const double speed = drift_m_ + spin_a_ * length(a.center) + spin_b_ * length(b.center);
@@ -101,7 +101,7 @@ class SurfacePair final : public MovingPair {
     return {parted_until_by_any(points_a, points_b, normal, {}, rounding_m_, time_), gap};
   }
 
-  // Unit; of triangles in one plane also the directions in it, across each edge.
+  // Unit vectors. For triangles in one plane they include the directions in that plane normal to each edge.
   static std::vector<Point> directions(const Corners& a, const Corners& b) {
     std::vector<Point> out;
     const auto add = [&](Point p) {
@@ -117,7 +117,7 @@ class SurfacePair final : public MovingPair {
     return out;
   }
 
-  // Depth first; at(i, j) returns false to end the visit.
+  // Depth first; at(i, j) returns false to end the traversal.
   template <typename MayMatter, typename At>
   void visit(const MayMatter& may_matter, const At& at) const {
     if (a_.nodes.empty() || b_.nodes.empty()) return;
@@ -132,7 +132,7 @@ class SurfacePair final : public MovingPair {
         if (!at(a.first, b.first)) return;
         continue;
       }
-      // Open the larger one, its child that is nearer last: that one is visited first.
+      // Open the larger node, and push its nearer child last, so that it is visited first.
       const bool opens_a = b.is_leaf || (!a.is_leaf && a.radius_m >= b.radius_m);
       std::array<std::uint32_t, 2> first{opens_a ? a.first : i, opens_a ? j : b.first};
       std::array<std::uint32_t, 2> second{opens_a ? a.first + 1 : i, opens_a ? j : b.first + 1};

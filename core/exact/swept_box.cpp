@@ -18,7 +18,7 @@ struct Range {
   }
 };
 
-// One coordinate of a point of a turning body: x(t) = rest + speed t + c cos(angle t) + s sin(angle t).
+// One coordinate of a point of a moving and turning body: x(t) = rest + speed t + c cos(angle t) + s sin(angle t).
 struct Coordinate {
   double rest, speed, c, s, angle;
 
@@ -27,8 +27,9 @@ struct Coordinate {
   }
 };
 
-// The extremes lie at the ends and where speed + angle (s cos - c sin) = 0. A time that is off by rounding changes x by
-// its square, and a zero that rounding hides, where two of them meet, by its cube: far below the rounding of x itself.
+// The extremes lie at the ends and where speed + angle (s cos - c sin) = 0. An error of rounding in such a time changes
+// x by its square. Where two zeros nearly coincide and rounding hides them, x changes by its cube. Both are far below
+// the rounding of x itself.
 void grow(Range& range, const Coordinate& x) {
   range.grow(x.at(0.0));
   range.grow(x.at(1.0));

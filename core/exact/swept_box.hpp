@@ -1,4 +1,4 @@
-// The box of everywhere that a rigid body is during a step in which it moves and turns.
+// The box that contains a rigid body during a whole step in which it moves and turns.
 #pragma once
 
 #include <span>
@@ -8,8 +8,8 @@
 
 namespace broadside::exact {
 
-// Contains every vertex at every time of the step, for certain: rounding goes outwards. It is the tight box of the
-// vertices' paths but for that, and so at most placing_error_m and one step of a float too large on each side.
+// Contains every vertex at every time of the step: rounding goes outwards. Apart from rounding it is the tight box of
+// the vertices' paths, so it is at most placing_error_m and one float step too large on each side.
 core::Box swept_box(std::span<const core::Vec3> vertices, const RigidMotion& motion);
 
 }  // namespace broadside::exact

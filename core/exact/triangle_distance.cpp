@@ -22,8 +22,8 @@ Point nearest_on_segment(Point p, Point from, Point to) {
   return from + std::clamp(dot(p - from, along) / length2, 0.0, 1.0) * along;
 }
 
-// The foot of p in the triangle's plane, when it lies in the triangle. When it lies outside, an edge is nearest, which
-// the caller tests.
+// The projection of p onto the triangle's plane, when it lies in the triangle. When it lies outside, an edge is
+// nearest; the caller tests edges.
 bool foot_in_triangle(Point p, const Corners& t, Point& foot) {
   const Point normal = cross(t[1] - t[0], t[2] - t[0]);
   const double normal2 = dot(normal, normal);
@@ -34,8 +34,8 @@ bool foot_in_triangle(Point p, const Corners& t, Point& foot) {
   return true;
 }
 
-// Nearest points inside two segments. False when the segments are parallel or the nearest point is an end of one, which
-// the caller tests.
+// Nearest points inside two segments. False when the segments are parallel or the nearest point is an end of one; the
+// caller tests these cases.
 bool nearest_inside_segments(Point p0, Point p1, Point q0, Point q1, Point& on_p, Point& on_q) {
   const Point u = p1 - p0;
   const Point v = q1 - q0;
@@ -55,8 +55,8 @@ bool nearest_inside_segments(Point p0, Point p1, Point q0, Point q1, Point& on_p
   return true;
 }
 
-// Where the segment passes through the triangle: its ends lie on different sides of the plane, and the line passes all
-// three edges on the same side.
+// Finds where the segment passes through the triangle: its ends lie on different sides of the plane, and the line
+// passes all three edges on the same side.
 bool passes_through(Point from, Point to, const Corners& t, Point& at) {
   const Point normal = cross(t[1] - t[0], t[2] - t[0]);
   const double side_from = dot(from - t[0], normal);
@@ -75,8 +75,8 @@ bool passes_through(Point from, Point to, const Corners& t, Point& at) {
   return true;
 }
 
-// Nearer than this share of the largest coordinate, exact predicates decide whether triangles meet. Double's rounding
-// is 1e-16 of it; thin triangles lose a good part of the digits that are left.
+// When triangles are nearer than this share of the largest coordinate, exact predicates decide whether they meet. The
+// rounding of double is 1e-16 of that coordinate; thin triangles lose many of the digits that remain.
 constexpr double kDoubt = 1e-7;
 
 double largest_coordinate(const Corners& t) {
@@ -93,7 +93,7 @@ bool passes_through(const Corners& a, const Corners& b, Point& at) {
 
 constexpr Nearest kFar{std::numeric_limits<double>::infinity(), {}, {}};
 
-// Of triangles that do not cross: between a corner and a face, a corner and an edge, or the insides of two edges.
+// For triangles that do not cross: the nearest points are of a corner and a face, a corner and an edge, or two edges.
 Nearest nearest_of_parts(const Corners& a, const Corners& b) {
   Nearest best = kFar;
   Point on_a;

@@ -1,4 +1,4 @@
-// The least distance between two triangles, in double: the primitive of the exact mesh arbiter.
+// The least distance between two triangles, in double: the basis of the exact distance between meshes.
 #pragma once
 
 #include <array>
@@ -38,18 +38,18 @@ constexpr Point cross(Point a, Point b) {
 
 using Corners = std::array<Point, 3>;
 
-// Nearest points of two bodies or triangles, in the frame of the corners, m. Squared distance 0 = they meet; then both
-// points are one common point.
+// Nearest points of two bodies or triangles, in the frame of the corners, m. A squared distance of 0 means that they
+// meet; then both points are one common point.
 struct Nearest {
   double squared_m2 = 0.0;
   Point on_a;
   Point on_b;
 };
 
-// Degenerate triangles (segments, points) are fine. The squared distance is 0 exactly when the closed triangles have a
-// point in common, decided by exact predicates (core/exact/predicates.hpp); where they do not and rounding would
-// say 0, it is the least positive number. Two edges within an angle t of parallel may be off by t times their length,
-// t < 1e-8 or so.
+// Degenerate triangles (segments, points) are allowed. The squared distance is 0 exactly when the closed triangles have
+// a point in common, as exact predicates decide (core/exact/predicates.hpp). When they have none but rounding would
+// give 0, it is the least positive number. For two edges within an angle t of parallel, with t < 1e-8 or so, the
+// distance may be off by t times their length.
 Nearest nearest_of_triangles(const Corners& a, const Corners& b);
 
 // on_a is the point itself.

@@ -11,8 +11,8 @@ using core::Box;
 using core::Triangle;
 using core::Vec3;
 
-// A leaf of four keeps the tree at half the triangles' memory, and 16 pairs of triangles cost about as much as the
-// boxes that would tell them apart.
+// Leaves of four triangles keep the tree at half the triangles' memory, and testing 16 pairs of triangles costs about
+// as much as testing the boxes that would separate them.
 constexpr std::uint32_t kLeafTriangles = 4;
 
 constexpr Nearest kBeyond{std::numeric_limits<double>::infinity(), {}, {}};
@@ -25,8 +25,8 @@ Box joined(const Box& a, const Box& b) {
   return core::grown(core::grown(a, b.min), b.max);
 }
 
-// Squared distance of two boxes. A moved box contains the moved vertices because rounding is monotone, so this bounds
-// the distance of what is inside from below, up to double's own rounding.
+// Squared distance of two boxes. A moved box contains the moved vertices because rounding is monotone, so this is a
+// lower bound of the distance of the boxes' contents, up to the rounding of double.
 double squared_gap(const Box& a, const Box& b) {
   double sum = 0.0;
   for (int axis = 0; axis < 3; ++axis) {
@@ -58,8 +58,8 @@ TriangleTree::TriangleTree(const core::Mesh& mesh, core::Quat orientation)
   split(0, 0, static_cast<std::uint32_t>(triangles_.size()));
 }
 
-// Halves by the middle of the boxes on the longest axis. nth_element may order equal keys as it likes, but always in
-// the same way: the tree depends on the mesh alone.
+// Splits at the median of the box centers on the longest axis. nth_element may order equal keys in any way, but always
+// in the same way: the tree depends on the mesh alone.
 void TriangleTree::split(std::uint32_t node, std::uint32_t begin, std::uint32_t end) {
   Box box = core::empty_box();
   for (std::uint32_t k = begin; k < end; ++k) box = joined(box, box_of(vertices_, triangles_[k]));
@@ -92,7 +92,7 @@ Corners corners_of(const TriangleTree& tree, std::uint32_t k, Vec3 x) {
   return {to_point(v[t[0]] + x), to_point(v[t[1]] + x), to_point(v[t[2]] + x)};
 }
 
-// Depth first, nearer children first, so that a small bound is found early and the rest is skipped on it.
+// Depth first, nearer children first, so that a small distance is found early and lets the rest be skipped.
 Nearest nearest_of_trees(const TriangleTree& a, Vec3 xa, const TriangleTree& b, Vec3 xb) {
   struct Visit {
     std::uint32_t node_a, node_b;
@@ -115,7 +115,7 @@ Nearest nearest_of_trees(const TriangleTree& a, Vec3 xa, const TriangleTree& b, 
                       node_b.first + node_b.count, best);
       continue;
     }
-    // Open the one with the larger box; its children share one of the two pairs' nodes.
+    // Open the node with the larger box; the other node is paired with each of its children.
     const Vec3 size_a = node_a.box.max - node_a.box.min;
     const Vec3 size_b = node_b.box.max - node_b.box.min;
     const bool opens_a =
@@ -137,7 +137,8 @@ Nearest nearest_by_brute_force(const TriangleTree& a, Vec3 xa, const TriangleTre
 }
 
 Nearest nearest_vertices(const TriangleTree& a, Vec3 xa, const TriangleTree& b, Vec3 xb) {
-  // Columns and eight running minima, so that the inner loop has no order of additions or branch to keep.
+  // Separate columns and eight running minima, so that the inner loop has neither branches nor a fixed order of
+  // additions.
   constexpr std::size_t kLanes = 8;
   const std::size_t padded = (b.vertices().size() + kLanes - 1) / kLanes * kLanes;
   std::array<std::vector<double>, 3> column;

@@ -1,4 +1,4 @@
-// A box tree over one turned mesh's triangles, and the least distance of two translated ones.
+// A box tree over the triangles of one rotated mesh, and the least distance of two translated trees.
 #pragma once
 
 #include <array>
@@ -12,13 +12,13 @@
 
 namespace broadside::exact {
 
-// Vertices are the pipeline's: turned in float here, moved in float where they are used, and double from there on. So
-// the arbiter judges the very points that the pipeline compares.
+// Vertices are the same as the pipeline's: rotated in float here, translated in float where they are used, and double
+// from there on. So the reference answer is for exactly the points that the pipeline compares.
 class TriangleTree {
  public:
   struct Node {
-    core::Box box;            // of the turned vertices, before the move
-    std::uint32_t first = 0;  // leaf: its first triangle; else: its first child, the second is next to it
+    core::Box box;            // of the rotated vertices, before translation
+    std::uint32_t first = 0;  // leaf: its first triangle; otherwise its first child, and the second follows it
     std::uint32_t count = 0;  // triangles of a leaf; 0 = not a leaf
   };
 
@@ -39,11 +39,11 @@ class TriangleTree {
 // Corners of triangle k of a tree moved to x.
 Corners corners_of(const TriangleTree& tree, std::uint32_t k, core::Vec3 x);
 
-// Least distance of the surfaces of two trees moved to xa and xb: 0 where they cross. A body inside another one, not
-// touching its surface, is apart from it.
+// Least distance of the surfaces of two trees translated to xa and xb: 0 where they cross. A body inside another one
+// that does not touch its surface is apart from it.
 Nearest nearest_of_trees(const TriangleTree& a, core::Vec3 xa, const TriangleTree& b, core::Vec3 xb);
 
-// The same by visiting every pair of triangles.
+// The same distance, by visiting every pair of triangles.
 Nearest nearest_by_brute_force(const TriangleTree& a, core::Vec3 xa, const TriangleTree& b, core::Vec3 xb);
 
 // Least distance of any vertex of one to any vertex of the other, d_vv of METHOD section 3, by visiting every pair.

@@ -15,7 +15,7 @@ struct Box {
   friend constexpr bool operator==(const Box&, const Box&) = default;
 };
 
-// The box of no point: growing it by a point gives that point's box, and it overlaps nothing.
+// The empty box: growing it by a point gives that point's box, and it overlaps nothing.
 BROADSIDE_HD constexpr Box empty_box() {
   constexpr float kInf = std::numeric_limits<float>::infinity();
   return {{kInf, kInf, kInf}, {-kInf, -kInf, -kInf}};

@@ -1,8 +1,9 @@
-// Sums with a product that is not rounded on its own: one operation for two, and one rounding. Named in the formula, so
-// that every machine has the same bits; a compiler does not choose them (-ffp-contract=off, --fmad=false).
+// Sums with a product that is not rounded on its own: one operation instead of two, and one rounding. Formulas ask for
+// them by name, so that every machine computes the same bits; the compiler never chooses them (-ffp-contract=off,
+// --fmad=false).
 //
-// Where the processor of a host has no such instruction, or the compiler may not use it, fmaf is a call: for loops over
-// millions of patches there are lanes (reference/octree_cpu/rigid/patch_kernel.hpp).
+// Where the host's processor has no such instruction, or the compiler may not use it, fmaf is a function call. Loops
+// over millions of patches use vector lanes instead (reference/octree_cpu/rigid/patch_kernel.hpp).
 #pragma once
 
 #include <bit>
@@ -22,7 +23,7 @@ BROADSIDE_HD float less_product(float sum, float a, float b) {
   return fmaf(-a, b, sum);
 }
 
-// sum + s v, of each number.
+// sum + s v, component by component.
 template <typename Vector, typename Number>
 BROADSIDE_HD Vector plus_times(const Vector& sum, const Number& s, const Vector& v) {
   return {plus_product(sum.x, s, v.x), plus_product(sum.y, s, v.y), plus_product(sum.z, s, v.z)};
@@ -44,7 +45,7 @@ BROADSIDE_HD Vector plus_cross(const Vector& sum, const Vector& a, const Vector&
           less_product(plus_product(sum.z, a.x, b.y), a.y, b.x)};
 }
 
-// M v of a symmetric matrix.
+// M v, where M is a symmetric matrix.
 template <typename Symmetric, typename Vector>
 BROADSIDE_HD Vector fused_product(const Symmetric& m, const Vector& v) {
   return {plus_product(plus_product(m.xx * v.x, m.xy, v.y), m.xz, v.z),
@@ -52,15 +53,15 @@ BROADSIDE_HD Vector fused_product(const Symmetric& m, const Vector& v) {
           plus_product(plus_product(m.xz * v.x, m.yz, v.y), m.zz, v.z)};
 }
 
-// 1 / sqrt(x) within 4 %, by the bits of a positive normal number: half of the exponent, turned (Lomont, Fast inverse
-// square root, 2003).
+// 1 / sqrt(x) within 4 %, from the bits of a positive normal number: half of the exponent with its sign reversed
+// (Lomont, Fast inverse square root, 2003).
 inline constexpr std::uint32_t kReciprocalRootBits = 0x5F3759DFU;
 BROADSIDE_HD constexpr float rough_reciprocal_root(float x) {
   return std::bit_cast<float>(kReciprocalRootBits - (std::bit_cast<std::uint32_t>(x) >> 1));
 }
 
-// 1 / sqrt(x), off by a few of its last bits: three of Newton's steps. Below the least normal number it is too small,
-// and at 0 finite.
+// 1 / sqrt(x) to within a few of its last bits, by three Newton steps. Below the least normal number the result is too
+// small, and at 0 it is finite.
 template <typename Number>
 BROADSIDE_HD Number reciprocal_root(const Number& x) {
   const Number half = 0.5F * x;
@@ -69,7 +70,7 @@ BROADSIDE_HD Number reciprocal_root(const Number& x) {
   return y;
 }
 
-// sqrt(x), and 1 / x, of a positive normal number, as near; sqrt(0) is 0.
+// sqrt(x), and 1 / x, of a positive normal number, as accurate as that; sqrt(0) is 0.
 template <typename Number>
 BROADSIDE_HD Number near_root(const Number& x) {
   return x * reciprocal_root<Number>(x);

@@ -1,9 +1,9 @@
-// What a formula needs of a number so that one text serves a float, on host and device, and several floats side by side
-// in a vector register (reference/octree_cpu/rigid/lanes.hpp): the same operations, and so the same bits.
+// The operations that a formula needs of a number type, so that one source serves a float, on host and device, and
+// several floats side by side in a vector register (reference/octree_cpu/rigid/lanes.hpp): the same operations, and so
+// the same bits.
 //
-// A type of lanes has + - * / and comparisons lane by lane, converts from a float, and brings its own pick, any and
-// square_root beside it. Its name for the outcome of a comparison is Truth; truths are joined with & and |, turned
-// with !.
+// A lane type has + - * / and comparisons lane by lane, converts from a float, and defines its own pick, any and
+// square_root. Its name for the result of a comparison is Truth; truths are joined with & and |, and negated with !.
 #pragma once
 
 #include <cmath>
@@ -20,7 +20,7 @@ BROADSIDE_HD constexpr float pick(bool is_first, float first, float second) {
 BROADSIDE_HD constexpr Vec3 pick(bool is_first, Vec3 first, Vec3 second) {
   return is_first ? first : second;
 }
-// Whether it is so in a lane.
+// Whether it is true in any lane.
 BROADSIDE_HD constexpr bool any(bool truth) {
   return truth;
 }
@@ -28,7 +28,7 @@ BROADSIDE_HD float square_root(float x) {
   return sqrtf(x);
 }
 
-// Vec3, of several vectors side by side: every operation in the same order.
+// A Vec3 with several values side by side; every operation is in the same order as for Vec3.
 template <typename Lanes>
 struct LaneVec3 {
   Lanes x{0.0F};
@@ -47,7 +47,7 @@ struct LaneVec3 {
   }
 };
 
-// Of a type of numbers: its vectors and its truths.
+// The vector and truth types that belong to a number type.
 template <typename Number>
 struct NumberTraits {
   using Vector = LaneVec3<Number>;

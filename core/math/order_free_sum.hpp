@@ -1,4 +1,4 @@
-// A sum of nonnegative floats that is the same for every order of its terms: for threads that add up side by side.
+// A sum of nonnegative floats that is the same for every order of its terms: for threads that add up in parallel.
 #pragma once
 
 #include <algorithm>
@@ -10,18 +10,18 @@
 
 namespace broadside::core {
 
-// Terms are counted in units of a power of two, 2^40 to 2^41 of which are the largest term: what a term loses is below
-// a 2^40th of that. Sums of integers have no order. Up to 2^22 terms.
+// Terms are counted in whole units, a power of two of which the largest term has 2^40 to 2^41. Each term thus loses
+// less than a 2^40th of the largest one. Sums of integers do not depend on the order. Up to 2^22 terms.
 class OrderFreeSum {
  public:
-  // largest: of all terms; finite.
+  // largest: the largest of all terms; finite.
   BROADSIDE_HD explicit constexpr OrderFreeSum(float largest) {
     const auto exponent = static_cast<int>(std::bit_cast<std::uint32_t>(largest) >> 23) - 127;
-    // Of a subnormal or zero, as of the least normal number.
+    // A subnormal or zero counts as the least normal number here.
     shift_ = 40 - (exponent < -126 ? -126 : exponent);
   }
 
-  // Of one term.
+  // The units of one term.
   BROADSIDE_HD constexpr std::uint64_t units(float term) const {
     return static_cast<std::uint64_t>(static_cast<double>(term) * power_of_two(shift_));
   }
@@ -37,7 +37,7 @@ class OrderFreeSum {
   int shift_ = 0;
 };
 
-// The terms are finite and not below 0.
+// Precondition: the terms are finite and not negative.
 inline float order_free_sum(std::span<const float> terms) {
   const OrderFreeSum sum(terms.empty() ? 0.0F : *std::max_element(terms.begin(), terms.end()));
   std::uint64_t units = 0;

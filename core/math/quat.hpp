@@ -15,7 +15,7 @@ struct Quat {
   friend constexpr bool operator==(const Quat&, const Quat&) = default;
 };
 
-// v turned by the unit quaternion q. The identity returns v unchanged, bit for bit.
+// v rotated by the unit quaternion q. The identity returns v unchanged, bit for bit.
 BROADSIDE_HD constexpr Vec3 rotate(Quat q, Vec3 v) {
   const Vec3 t{2.0F * (q.y * v.z - q.z * v.y), 2.0F * (q.z * v.x - q.x * v.z), 2.0F * (q.x * v.y - q.y * v.x)};
   return {v.x + q.w * t.x + (q.y * t.z - q.z * t.y), v.y + q.w * t.y + (q.z * t.x - q.x * t.z),

@@ -9,11 +9,12 @@
 
 namespace broadside::core {
 
-// What stands for "no count": one of the two is a NaN.
+// Returned in place of a count when one of the two numbers is a NaN.
 inline constexpr std::uint64_t kNoUlps = std::numeric_limits<std::uint64_t>::max();
 
-// Steps from one representable number to the next that lead from a to b: 0 for equal bits and for +0 and -0, 1 for
-// neighbors, infinity being the neighbor of the largest finite number. kNoUlps when one is a NaN and the bits differ.
+// The number of steps from one representable number to the next that lead from a to b: 0 for equal bits and for +0 and
+// -0, 1 for neighbors; infinity is the neighbor of the largest finite number. kNoUlps when one is a NaN and the bits
+// differ.
 template <typename Real>
 std::uint64_t ulps_between(Real a, Real b) {
   static_assert(std::is_same_v<Real, float> || std::is_same_v<Real, double>);
@@ -23,7 +24,7 @@ std::uint64_t ulps_between(Real a, Real b) {
   const auto v = std::bit_cast<Word>(b);
   if (u == v) return 0;
   if (std::isnan(a) || std::isnan(b)) return kNoUlps;
-  // Without the sign the bits count upwards from 0, so numbers of unlike signs are apart by the sum of both counts.
+  // Without the sign, the bits count upwards from 0. So numbers of opposite signs are apart by the sum of both counts.
   const std::uint64_t p = u & ~kSign;
   const std::uint64_t q = v & ~kSign;
   if ((u & kSign) != (v & kSign)) return p + q;

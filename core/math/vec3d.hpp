@@ -34,7 +34,7 @@ BROADSIDE_HD constexpr double dot(Vec3d a, Vec3d b) {
 BROADSIDE_HD constexpr Vec3d cross(Vec3d a, Vec3d b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
-// Of the absolute values.
+// The largest absolute value of the components.
 BROADSIDE_HD double largest_of(Vec3d a) {
   return fmax(fmax(fabs(a.x), fabs(a.y)), fabs(a.z));
 }

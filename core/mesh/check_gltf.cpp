@@ -17,18 +17,18 @@ namespace {
 
 using Json = nlohmann::json;
 
-// Offsets and lengths beyond this are refused; sums and products of those below it do not overflow.
+// Offsets and lengths beyond this are refused. Sums and products of smaller ones do not overflow.
 constexpr std::uint64_t kLargestNumber = std::uint64_t{1} << 40U;
 constexpr std::uint64_t kLargestStride = 1U << 16U;
 
-// The array of this name; empty where there is none.
+// The array with this name; empty where there is none.
 const Json& list_of(const Json& document, const char* name) {
   static const Json kNone = Json::array();
   const auto found = document.find(name);
   return found == document.end() || !found->is_array() ? kNone : *found;
 }
 
-// A whole number up to kLargestNumber, or what stands for a missing one; none where it is something else.
+// A whole number up to kLargestNumber, or `missing` when the key is absent; nothing when the value is something else.
 std::optional<std::uint64_t> whole(const Json& object, const char* key, std::optional<std::uint64_t> missing) {
   if (!object.is_object()) return std::nullopt;
   const auto found = object.find(key);
@@ -121,7 +121,7 @@ class GltfCheck {
 
   enum class Use { kPosition, kIndex };
 
-  // Bytes of an element; 0 where it is of another type.
+  // Bytes of an element; 0 when it has another type.
   static std::uint64_t bytes_of(const Json& accessor, Use use) {
     const auto type = accessor.find("type");
     const auto component = whole(accessor, "componentType", {});
@@ -192,7 +192,7 @@ class GltfCheck {
     return Done{};
   }
 
-  // assimp's path and an error's line take no control characters.
+  // The path for assimp and the line of an error must not contain control characters.
   static std::string printable(std::string text) {
     if (text.size() > 200) text.resize(200);
     for (char& c : text)

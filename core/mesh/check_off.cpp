@@ -12,9 +12,9 @@
 namespace broadside::core {
 namespace {
 
-// assimp cuts longer lines here and reads the rest as the next line.
+// assimp cuts longer lines at this length and reads the rest as the next line.
 constexpr std::size_t kLongestLine = 4000;
-// assimp leaves out faces with more corners.
+// assimp drops faces with more corners.
 constexpr std::uint64_t kMostCorners = 9;
 
 std::vector<std::string_view> words_of(std::string_view line) {
@@ -78,7 +78,7 @@ class OffCheck {
     return !words_.empty();
   }
 
-  // Comment lines may stand before the counts; behind them assimp accepts none.
+  // Comment lines may come before the counts; assimp accepts none after them.
   bool next_header_line() {
     do {
       if (!next_line()) return false;

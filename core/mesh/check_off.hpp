@@ -1,5 +1,5 @@
-// Is an OFF file whole? Asked before assimp reads it: when assimp's OFF reader leaves faces out, its count of faces
-// runs below zero and it reads past the end of its list.
+// Is an OFF file complete? Checked before assimp reads it: when assimp's OFF reader leaves faces out, its face count
+// underflows and it reads past the end of its list.
 #pragma once
 
 #include <filesystem>
@@ -8,9 +8,9 @@
 
 namespace broadside::core {
 
-// The keyword OFF, alone or with assimp's prefixes for colors and normals (ST, C, N, 4), the counts of vertices and
-// faces, that many lines of vertices with at least three numbers, and that many lines of faces of 1 to 9 corners, each
-// a vertex that exists. Error: what is wrong, in one line.
+// Requires the keyword OFF, alone or with assimp's prefixes for colors and normals (ST, C, N, 4); the counts of
+// vertices and faces; that many lines of vertices with at least three numbers; and that many lines of faces of 1 to 9
+// corners, each a vertex that exists. Error: what is wrong, in one line.
 Status check_off(const std::filesystem::path& path);
 
 }  // namespace broadside::core

@@ -44,7 +44,7 @@ const Type* type_named(std::string_view name) {
 
 struct Property {
   std::string name;
-  const Type* count = nullptr;  // of a list; null otherwise
+  const Type* count = nullptr;  // for a list; otherwise null
   const Type* value = nullptr;
 };
 
@@ -91,7 +91,7 @@ class PlyCheck {
     std::size_t at = 0;
     for (int number = 1;; ++number) {
       const std::size_t end = bytes_.find('\n', at);
-      // A header of more lines than this is no PLY header.
+      // A text with more lines than this before its end_header is not a PLY header.
       if (end == std::string::npos || number > 10000) return bad("its header has no end_header");
       const std::vector<std::string> words = words_of(bytes_.substr(at, end - at));
       at = end + 1;
@@ -176,7 +176,7 @@ class PlyCheck {
         fixed += p.count != nullptr ? p.count->bytes : p.value->bytes;
         has_list = has_list || p.count != nullptr;
       }
-      // An item without properties takes no bytes, so a header may claim any number of them.
+      // Items without properties take no bytes, so a header may claim any number of them.
       if (fixed == 0 || element.count > (bytes_.size() - at) / fixed) return cut();
       if (!has_list) at += fixed * element.count;
       for (std::uint64_t n = 0; has_list && n < element.count; ++n)
@@ -198,7 +198,7 @@ class PlyCheck {
     return true;
   }
 
-  // Of 1, 2 or 4 bytes. A negative count reads as a huge one, which no file holds.
+  // A count of 1, 2 or 4 bytes. A negative count reads as a huge one, which no file can hold.
   std::uint64_t count_at(std::size_t at, std::size_t size) const {
     std::uint64_t value = 0;
     for (std::size_t k = 0; k < size; ++k) {

@@ -1,5 +1,5 @@
-// Is a PLY file whole? Asked before assimp reads it: its PLY reader trusts the header and runs off the end of a damaged
-// file.
+// Is a PLY file complete? Checked before assimp reads it: its PLY reader trusts the header and reads past the end of a
+// damaged file.
 #pragma once
 
 #include <filesystem>
@@ -8,9 +8,9 @@
 
 namespace broadside::core {
 
-// The header is understood to the last word, there are vertices with x y z and faces with a list of vertex indices, and
-// the body is as long as the header says (binary: walked list by list; text: one line per item).
-// Error: what is wrong, in one line.
+// Requires that every word of the header is understood, that there are vertices with x y z and faces with a list of
+// vertex indices, and that the body is as long as the header says (binary: walked list by list; text: one line per
+// item). Error: what is wrong, in one line.
 Status check_ply(const std::filesystem::path& path);
 
 }  // namespace broadside::core

@@ -14,7 +14,7 @@ constexpr std::uint32_t kNone = 0xFFFFFFFFU;
 
 struct PositionHash {
   std::size_t operator()(const Vec3& v) const {
-    // + 0 turns -0 into +0: the two compare equal, so they must hash alike.
+    // + 0 turns -0 into +0: the two compare equal, so they must have the same hash.
     const auto word = [](float f) { return std::uint64_t{std::bit_cast<std::uint32_t>(f + 0.0F)}; };
     std::uint64_t h = word(v.x) * 0x9e3779b97f4a7c15ULL;
     h = (h ^ (h >> 29) ^ word(v.y)) * 0xbf58476d1ce4e5b9ULL;
@@ -91,7 +91,7 @@ Dropped clean_mesh(Mesh& mesh) {
     if (!has_area(mesh, t)) return ++dropped.zero_area_triangles, true;
     return false;
   });
-  // A merged vertex is unreferenced too; it was counted once already.
+  // A merged vertex is unreferenced too, but was already counted as repeated.
   dropped.unreferenced_vertices = drop_unreferenced(mesh) - dropped.repeated_vertices;
   return dropped;
 }

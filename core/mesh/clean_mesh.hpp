@@ -1,4 +1,4 @@
-// Takes out of a mesh what no engine can use, and counts it: repeated points, triangles without area, stray vertices.
+// Removes from a mesh what no engine can use, and counts it: repeated points, triangles without area, stray vertices.
 #pragma once
 
 #include <cstdint>
@@ -9,12 +9,12 @@
 
 namespace broadside::core {
 
-// What cleaning took out. Vertices and triangles that stay keep their order.
+// What cleaning removed. Vertices and triangles that remain keep their order.
 struct Dropped {
-  std::uint64_t repeated_vertices = 0;      // same position, bit for bit, as an earlier vertex: merged into it
+  std::uint64_t repeated_vertices = 0;      // equal to an earlier vertex, bit for bit: merged into it
   std::uint64_t collapsed_triangles = 0;    // two corners are one vertex
   std::uint64_t zero_area_triangles = 0;    // three corners on one line
-  std::uint64_t unreferenced_vertices = 0;  // in no triangle that stays
+  std::uint64_t unreferenced_vertices = 0;  // in no triangle that remains
 
   [[nodiscard]] bool is_nothing() const {
     return repeated_vertices + collapsed_triangles + zero_area_triangles + unreferenced_vertices == 0;
@@ -24,13 +24,13 @@ struct Dropped {
 };
 
 // Cleans in place. Triangle indices must exist and vertices be finite. A triangle has no area when its exact cross
-// product is zero: differences of floats are exact in double unless their exponents lie more than 29 apart, and so are
-// products of two 24-bit differences, so the test is a fact about the file and not a tolerance.
+// product is zero. Differences of floats are exact in double unless their exponents lie more than 29 apart, and so are
+// products of two 24-bit differences: the test is a fact about the file, not a tolerance.
 Dropped clean_mesh(Mesh& mesh);
 
-// The mesh scaled evenly and moved so that the longest side of its box is `longest_side_m` and the box's center is the
-// origin. Computed in double, rounded to float once per coordinate, so every machine gets the same bits. The mesh must
-// have a box with extent (any mesh that load_mesh returned has).
+// Scales the mesh uniformly and moves it so that the longest side of its box is `longest_side_m` and the box's center
+// is the origin. Computed in double and rounded to float once per coordinate, so every machine gets the same bits. The
+// box must not be a point (any mesh that load_mesh returned is fine).
 Mesh normalized(Mesh mesh, double longest_side_m);
 
 }  // namespace broadside::core

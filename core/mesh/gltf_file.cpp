@@ -32,7 +32,7 @@ void append_chunk(std::string& bytes, std::uint32_t type, std::string_view conte
   bytes.append(padded - content.size(), padding);
 }
 
-// The chunk at this offset, and moves it behind the chunk; false where its length runs past the end.
+// Reads the chunk at `at` and moves `at` past it; false when the chunk's length runs past the end of the file.
 bool take_chunk(std::string_view bytes, std::size_t& at, std::uint32_t& type, std::string_view& content) {
   if (bytes.size() - at < kChunkHeaderBytes) return false;
   const std::uint32_t length = word_at(bytes, at);
@@ -71,7 +71,7 @@ Status read_gltf_file(const std::filesystem::path& path, bool is_binary, GltfFil
   if (type != kJson) return bad("its first chunk is not JSON");
   if (at == said.size()) return Done{};
   if (!take_chunk(said, at, type, file.body)) return bad("its second chunk is longer than the file");
-  if (type != kBody) file.body = {};  // a later extension's chunk: readers skip what they do not know
+  if (type != kBody) file.body = {};  // a chunk of a later extension: readers skip chunks that they do not know
   return Done{};
 }
 

@@ -21,11 +21,11 @@ struct GltfFile {
   GltfFile& operator=(const GltfFile&) = delete;
 };
 
-// Every length in a .glb's header is held against the file before anything is allocated for it (glTF 2.0, 4.4).
+// Checks every length in a .glb's header against the file's size before anything is allocated for it (glTF 2.0, 4.4).
 // Error: what is wrong, in one line.
 Status read_gltf_file(const std::filesystem::path& path, bool is_binary, GltfFile& file);
 
-// A file of the same kind with this text in place of its own.
+// A file of the same kind with this text in place of its own JSON.
 std::string with_json(const GltfFile& file, std::string json);
 
 }  // namespace broadside::core

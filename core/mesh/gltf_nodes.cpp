@@ -34,7 +34,7 @@ class NodeTree {
     return {};
   }
 
-  // A node that no root reaches is within itself, because each has one parent at most.
+  // Each node has at most one parent, so a node that cannot be reached from a root is within itself.
   [[nodiscard]] std::string check_depth(std::size_t deepest) const {
     std::vector<std::size_t> level;
     for (std::size_t k = 0; k < children_.size(); ++k)

@@ -67,7 +67,7 @@ Status check_file(const std::filesystem::path& path) {
   return Done{};
 }
 
-// assimp's messages can span lines; an error here is one.
+// assimp's messages may span several lines; an error here is one line.
 std::string one_line(std::string text) {
   std::replace_if(
       text.begin(), text.end(), [](unsigned char c) { return std::iscntrl(c) != 0; }, ' ');
@@ -79,7 +79,7 @@ bool is_finite(const aiVector3D& v) {
   return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
 
-// Before any post-processing: spatial sorting of NaN is undefined.
+// Called before any post-processing: spatial sorting of NaN is undefined.
 Status check_vertices(const std::filesystem::path& path, const aiScene& scene) {
   std::uint64_t count = 0;
   for (unsigned m = 0; m < scene.mNumMeshes; ++m) {
@@ -110,7 +110,7 @@ Mesh gathered(const aiScene& scene) {
   return mesh;
 }
 
-// When assimp joins vertices it drops those that no face names; they are counted here.
+// When assimp joins vertices it drops those that no face uses; this counts them.
 std::uint64_t unreferenced_count(const aiScene& scene) {
   std::uint64_t count = 0;
   for (unsigned m = 0; m < scene.mNumMeshes; ++m) {
@@ -123,9 +123,9 @@ std::uint64_t unreferenced_count(const aiScene& scene) {
   return count;
 }
 
-// assimp cuts a polygon by looking for one ear after another among all of its corners: the cube of the corners where
-// few are ears, as in a spiral (4,000 corners: 6 s). Corners of one face, and the sum of their cubes where there are
-// more than four: about 5 s.
+// assimp triangulates a polygon by searching all of its corners for one ear after another. Where there are few ears, as
+// in a spiral, this takes time proportional to the cube of the corners (4,000 corners: 6 s). Limits of the corners of
+// one face, and of the sum of their cubes over faces of more than four corners: about 5 s.
 constexpr std::uint64_t kMostPolygonCorners = 3'600;
 constexpr std::uint64_t kMostPolygonWork = 50'000'000'000;
 
@@ -179,7 +179,8 @@ class NodeGatherer {
  public:
   NodeGatherer(const std::filesystem::path& path, const aiScene& scene) : path_(path), scene_(scene) {}
 
-  // Parents before their children, in the file's order; without recursion, because the file says how deep they nest.
+  // Visits parents before their children, in the file's order. Without recursion, because the file determines how deep
+  // nodes nest.
   Status walk(const aiNode& root) {
     std::vector<std::pair<const aiNode*, Matrix>> waiting{{&root, kIdentity}};
     while (!waiting.empty()) {
@@ -195,7 +196,7 @@ class NodeGatherer {
   LoadedNodes nodes() && { return std::move(loaded_); }
 
  private:
-  static constexpr std::uint32_t kNoMesh = 0xFFFFFFFFU;  // points and lines show no triangle
+  static constexpr std::uint32_t kNoMesh = 0xFFFFFFFFU;  // for nodes that show points and lines, and so no triangle
   using Key = std::pair<std::vector<unsigned>, Matrix>;
 
   Status add(const aiNode& node, const Matrix& here) {
@@ -226,14 +227,14 @@ class NodeGatherer {
 
 struct Imported {
   Mesh mesh;
-  std::uint64_t unreferenced_vertices = 0;  // that are no longer in the mesh
+  std::uint64_t unreferenced_vertices = 0;  // those that were removed from the mesh
 };
 
 constexpr unsigned kCleaning = aiProcess_RemoveComponent | aiProcess_Triangulate | aiProcess_JoinIdenticalVertices;
 
-// When the reader for a file's extension refuses it, assimp tries its forty other readers, which nothing above has
-// checked. So only the reader for the extension stays registered; of the two for glTF the one for version 2, because
-// the other one loads the file to see its version.
+// When the reader for a file's extension refuses it, assimp tries its forty other readers, for which nothing above has
+// checked the file. So only the reader for the extension stays registered. Of the two for glTF, only that for version 2
+// stays, because the other one loads the file to find its version.
 void keep_reader_of(Assimp::Importer& importer, const std::filesystem::path& path) {
   const std::string wanted = lower_extension(path).substr(1);
   for (std::size_t k = importer.GetImporterCount(); k-- > 0;) {
@@ -247,7 +248,7 @@ void keep_reader_of(Assimp::Importer& importer, const std::filesystem::path& pat
   }
 }
 
-// The file as it is, checked for what post-processing would trip over.
+// Reads the file as it is, and checks for what would make post-processing fail.
 Result<const aiScene*> read_checked(Assimp::Importer& importer, const std::filesystem::path& path) {
   importer.SetPropertyInteger(AI_CONFIG_PP_RVC_FLAGS, aiComponent_NORMALS | aiComponent_TANGENTS_AND_BITANGENTS |
                                                           aiComponent_COLORS | aiComponent_TEXCOORDS |
@@ -279,7 +280,7 @@ Result<Imported> imported(const std::filesystem::path& path) {
   const aiScene* scene = importer.ApplyPostProcessing(kCleaning | aiProcess_PreTransformVertices);
   if (scene == nullptr)
     return bad(path, "cannot be prepared: " + one_line(importer.GetErrorString()), "repair the mesh file");
-  // Again: a node's transform may overflow.
+  // Checked again, because a node's transform may overflow.
   if (Status s = check_vertices(path, *scene); !s) return s.error();
   return Imported{gathered(*scene), unreferenced - std::min(unreferenced, unreferenced_count(*scene))};
 }
@@ -296,7 +297,7 @@ Result<LoadedNodes> imported_nodes(const std::filesystem::path& path) {
   return std::move(gatherer).nodes();
 }
 
-// What assimp throws, as a result.
+// Turns what assimp throws into a result.
 template <typename Read>
 auto guarded(const std::filesystem::path& path, const Read& read) -> decltype(read(path)) {
   try {

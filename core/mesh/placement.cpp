@@ -9,7 +9,7 @@ namespace broadside::core {
 namespace {
 
 Quat quaternion(const Matrix& r) {
-  // The largest of the four components first, so that no division is by nearly nothing (Shepperd).
+  // Starts with the largest of the four components, so that no division is by almost zero (Shepperd).
   const double trace = r[0][0] + r[1][1] + r[2][2];
   std::array<double, 4> q{trace, r[0][0], r[1][1], r[2][2]};
   const auto top = static_cast<std::size_t>(std::max_element(q.begin(), q.end()) - q.begin());
@@ -36,7 +36,7 @@ double rounded_to_20_bits(double v, double largest) {
 }  // namespace
 
 std::optional<Placement> taken_apart(const Matrix& m) {
-  // Gram-Schmidt on the columns. Of a mirrored frame the third axis is turned, and the mirroring stays in the rest.
+  // Gram-Schmidt on the columns. For a mirrored frame the third axis is reversed, and the mirroring stays in the rest.
   Matrix rotation{};
   for (unsigned c = 0; c < 3; ++c) {
     std::array<double, 3> axis{m[0][c], m[1][c], m[2][c]};
@@ -74,7 +74,7 @@ void transform(Mesh& mesh, const Matrix& m) {
     for (unsigned r = 0; r < 3; ++r)
       v[static_cast<int>(r)] = static_cast<float>((m[r][0] * p.x + m[r][1] * p.y) + m[r][2] * p.z);
   }
-  // The rest is triangular, so its diagonal tells whether it mirrors.
+  // The rest is triangular, so its diagonal shows whether it mirrors.
   if (m[0][0] * m[1][1] * m[2][2] < 0.0)
     for (Triangle& t : mesh.triangles) std::swap(t[1], t[2]);
 }

@@ -1,4 +1,4 @@
-// A transform of the world taken apart into what a body has, place and rotation, and what its mesh must take.
+// Decomposes a world transform into the position and rotation of a body and a rest that its mesh must take.
 #pragma once
 
 #include <array>
@@ -10,7 +10,7 @@
 
 namespace broadside::core {
 
-// Three rows of four; a point is transformed from the right.
+// Three rows of four entries; points are column vectors on its right.
 using Matrix = std::array<std::array<double, 4>, 3>;
 
 inline constexpr Matrix kIdentity{{{1.0, 0.0, 0.0, 0.0}, {0.0, 1.0, 0.0, 0.0}, {0.0, 0.0, 1.0, 0.0}}};
@@ -18,15 +18,15 @@ inline constexpr Matrix kIdentity{{{1.0, 0.0, 0.0, 0.0}, {0.0, 1.0, 0.0, 0.0}, {
 struct Placement {
   Vec3 position;
   Quat orientation;
-  // Scale, shear and mirroring, upper triangular, rounded to 20 bits of the largest entry: products of float matrices
-  // are no more exact, and instances that differ only in place keep equal rests. The fourth column is zero.
+  // Scale, shear and mirroring, upper triangular, rounded to 20 bits of the largest entry. Products of float matrices
+  // are no more exact, and instances that differ only in their placement keep equal rests. The fourth column is zero.
   Matrix rest = kIdentity;
 };
 
-// Nothing when the matrix is not finite or flattens a direction.
+// Nothing when the matrix is not finite or maps a direction to zero.
 std::optional<Placement> taken_apart(const Matrix& matrix);
 
-// Vertices times `rest`; where it mirrors, triangles are turned round so that they keep facing outward.
+// Multiplies vertices by `rest`. Where it mirrors, triangles are reversed so that they keep facing outward.
 void transform(Mesh& mesh, const Matrix& rest);
 
 }  // namespace broadside::core

@@ -20,7 +20,7 @@ class RegularFiles final : public Assimp::DefaultIOSystem {
     return (!path_.empty() && path_ == file) || is_regular_and_bounded(file);
   }
 
-  // Null, which assimp reports as a file that cannot be opened.
+  // Returns null for a refused file; assimp reports that as a file that cannot be opened.
   Assimp::IOStream* Open(const char* file, const char* mode) override {
     if (!path_.empty() && path_ == file)
       return new Assimp::MemoryIOStream(reinterpret_cast<const std::uint8_t*>(content_.data()), content_.size());

@@ -10,7 +10,7 @@
 namespace broadside::core {
 namespace {
 
-// Union by index, with path halving.
+// Union-find by index, with path halving.
 class Groups {
  public:
   explicit Groups(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0U); }
@@ -27,8 +27,8 @@ class Groups {
 // One side of one triangle. Corners are numbered 3 * triangle + k.
 struct Side {
   std::uint32_t low, high;        // vertices
-  std::uint32_t at_low, at_high;  // the triangle's corners there
-  bool is_rising;                 // runs from low to high
+  std::uint32_t at_low, at_high;  // corners of the triangle at these vertices
+  bool is_rising;                 // whether it runs from low to high
 
   friend bool operator<(const Side& a, const Side& b) { return a.low != b.low ? a.low < b.low : a.high < b.high; }
 };
@@ -78,7 +78,7 @@ Topology topology(const Mesh& mesh) {
     }
     first = last;
   }
-  // The first fan of each vertex, and whether there is another.
+  // The first fan of each vertex, and whether it has another fan.
   constexpr std::uint32_t kNoFan = 0xFFFFFFFFU;
   std::vector<std::uint32_t> fan_of(mesh.vertices.size(), kNoFan);
   std::vector<bool> is_counted(mesh.vertices.size(), false);

@@ -1,6 +1,7 @@
-// The model. Two boxes of groups g and h are tested against each other when they lie in neighboring cells, whose size
-// on each axis is that of the longer box: with probability prod_k min(1, 2 max(m_gk, m_hk) / W_k), where m are mean
-// sides and W is the world's width. Without passes a cell is cubic, so all three m are those of the longest side.
+// The cost model. Two boxes of groups g and h are tested against each other when they lie in neighboring cells, whose
+// size on each axis is that of the longer box. This happens with probability prod_k min(1, 2 max(m_gk, m_hk) / W_k),
+// where m are mean sides and W is the world's width. Without passes a cell is cubic, so all three m are those of the
+// longest side.
 #include "core/method/box_passes.hpp"
 
 #include <algorithm>
@@ -12,16 +13,16 @@
 namespace broadside::core {
 namespace {
 
-// Shares of a sample this large are known within some 3 %, and it costs 5 us.
+// A sample of this size gives shares to within some 3 %, and costs 5 us.
 constexpr std::uint32_t kSampled = 1024;
-// A world this much wider than the place of its middle box is more than the levels of an octree on a GPU can divide:
-// 21, of which the finest must hold some boxes each.
+// An octree on a GPU has 21 levels, and its finest cells must hold some boxes each. It cannot divide a world that is
+// this many times wider than the distance of its median box from the origin.
 constexpr float kFarWider = 0x1p16F;
-// Sorting a box and looking at its neighbors costs as much as this many tests.
+// Sorting a box and visiting its neighbors costs as much as this many tests.
 constexpr double kTestsOfABox = 64.0;
-// Passes must promise at least this gain: the model knows nothing of how boxes cluster.
+// Passes must promise at least this gain, because the model does not know how boxes cluster.
 constexpr double kLeastGain = 2.0;
-// The mapped world's width in cells is at most this, so that places are not lost in the rounding of a float.
+// The mapped world is at most this many cells wide, so that the rounding of floats does not lose positions.
 constexpr double kMostCells = 0x1p18;
 
 struct BoxGroup {
@@ -40,7 +41,7 @@ double cubic(const BoxGroup& a, const BoxGroup& b, const Widths& world) {
   for (const double width : world) p *= chance(std::max(a.longest(), b.longest()), width);
   return p;
 }
-// In a pass whose cells are as long on each axis as those of `c` and `d`.
+// Expected tests in a pass whose cells are as long on each axis as the sides of `c` and `d`.
 double fitted(const BoxGroup& a, const BoxGroup& b, const BoxGroup& c, const BoxGroup& d, const Widths& world) {
   double p = a.share * b.share;
   for (std::size_t k = 0; k < 3; ++k) p *= chance(std::max(c.side[k], d.side[k]), world[k]);
@@ -73,21 +74,21 @@ PassMap map_of_shapes(const std::vector<Box>& sample, float largest_m) {
   }
   PassMap map;
   if (quantile(places, 0.5) > largest_m / kFarWider) return map;
-  // What is nearer to 0 than all but few boxes are long need not be told apart.
+  // Distances from 0 that are shorter than nearly all boxes need not be distinguished.
   const auto zero = std::bit_cast<std::int32_t>(std::abs(quantile(sides, 0.05)));
   for (AxisMap& axis : map.axis) axis = {true, zero, 1.0F};
   return map;
 }
 
-// A power of two by which a side becomes about 1.
+// The power of two that scales a side to about 1.
 float scale_for(double side, double width) {
   const double cell = std::max(side, width / kMostCells);
   if (!(cell > 0.0)) return 1.0F;
   return static_cast<float>(std::ldexp(1.0, std::clamp(-std::ilogb(cell), -100, 100)));
 }
 
-// Whether so many of the boxes overlap that writing the pairs down takes most of the time: each pass would write its
-// own. 127 * 64 pairs are looked at, so a hundredth of them is some 80 hits.
+// Whether so many boxes overlap that writing the pairs takes most of the time; each pass would write pairs of its own.
+// 127 * 64 pairs are tested, so a hundredth of them is some 80 hits.
 bool is_crowded(const std::vector<Box>& sample) {
   constexpr std::size_t kLookedAt = 128;
   const std::size_t stride = std::max<std::size_t>(1, sample.size() / kLookedAt);
@@ -99,7 +100,7 @@ bool is_crowded(const std::vector<Box>& sample) {
   return 100 * hits > tests;
 }
 
-// Of the sample, in the coordinates of the map: what each kind of long axes (core::long_axes) is like.
+// Statistics of the sample, in the coordinates of the map, for each set of long axes (core::long_axes).
 struct Kinds {
   std::array<BoxGroup, 8> kind;
   Widths world{};
@@ -121,7 +122,7 @@ Kinds kinds_of(const std::vector<Box>& sample, const PassMap& map) {
   return kinds;
 }
 
-// The commonest kinds are groups, `most` at most; the others join the last one, which then is whatever is left.
+// The most frequent kinds become groups, at most `most` of them; the other kinds join the last group.
 std::vector<BoxGroup> groups_of(const Kinds& kinds, std::uint32_t most, double boxes_a_sample, PassPlan& plan) {
   std::array<std::uint8_t, 8> by_share{0, 1, 2, 3, 4, 5, 6, 7};
   std::stable_sort(by_share.begin(), by_share.end(),
@@ -141,7 +142,7 @@ std::vector<BoxGroup> groups_of(const Kinds& kinds, std::uint32_t most, double b
   return groups;
 }
 
-// Scales the axes to the sides of two groups, and puts the one with the most cells first.
+// Scales the axes to the sides of two groups, and puts the axis with the most cells first.
 void fit_map(PassMap& map, const BoxGroup& a, const BoxGroup& b, const Widths& world) {
   Widths cells{};
   for (std::size_t k = 0; k < 3; ++k) {
@@ -152,7 +153,7 @@ void fit_map(PassMap& map, const BoxGroup& a, const BoxGroup& b, const Widths& w
                    [&](std::uint8_t p, std::uint8_t q) { return cells[p] > cells[q]; });
 }
 
-// A pass for each two groups, or for the only one.
+// Adds a pass for every two groups, or for the only one.
 void add_passes(const std::vector<BoxGroup>& groups, const Widths& world, PassPlan& plan) {
   std::array<double, kMostGroups> own_tests;
   own_tests.fill(INFINITY);
@@ -182,7 +183,7 @@ PassPlan plan_passes(std::span<const Box> boxes, float largest_m, std::uint32_t 
   std::vector<Box> sample;
   for (const std::uint32_t k : boxes_to_plan_by(n, least_boxes)) {
     const Box& b = boxes[k];
-    // The search refuses what is no box.
+    // The search itself refuses invalid boxes.
     if (!(b.min.x <= b.max.x && b.min.y <= b.max.y && b.min.z <= b.max.z && std::isfinite(largest_coordinate(b))))
       return {};
     sample.push_back(b);
@@ -206,10 +207,12 @@ PassPlan plan_passes_by_sample(const std::vector<Box>& sample, std::uint32_t n, 
   PassPlan plan;
   plan.shapes = shapes;
   plan.plain_tests = kTestsOfABox * n;
-  // By exponents, sides differ by powers of two within every kind, and the levels of one octree take them apart.
+  // In logarithmic coordinates, sides differ by powers of two within every kind, and the levels of one octree separate
+  // them.
   const std::uint32_t most_groups = plan.is_logarithmic() ? 1U : kMostGroups;
   add_passes(groups_of(kinds, most_groups, boxes_a_sample, plan), kinds.world, plan);
-  // The model sees no clusters, so a world far wider than its places is mapped whatever it says.
+  // The model does not know of clusters, so a world that is far wider than most positions in it is mapped whatever it
+  // says.
   const bool is_gain = plan.is_logarithmic() || plan.plain_tests > kLeastGain * plan.pass_tests;
   if (!is_gain || is_crowded(sample)) plan.passes.clear();
   return plan;

@@ -1,14 +1,14 @@
-// Passes of a broad phase over sets that one octree of cubic cells is bad at: boxes that are long and thin, and worlds
-// whose places lie many powers of two apart.
+// Passes of a broad phase over sets for which one octree of cubic cells is slow: boxes that are long and thin, and
+// worlds in which positions differ by many powers of two.
 //
-// A pass searches a part of the boxes in coordinates that were sent through a map, one for each axis. Any map that
-// never falls keeps every overlap: from a.min <= b.max follows f(a.min) <= f(b.max), whatever f rounds to. So the pairs
-// of the mapped boxes hold all pairs of the given ones, each is then tested on the boxes as given, and exactness
-// depends on no formula here. What the map is for: in its coordinates boxes of the pass are about as long on each axis,
-// so a cubic cell holds few, and scales that differ by powers of two lie side by side.
+// A pass searches some of the boxes in mapped coordinates, with one map for each axis. Any monotone map keeps every
+// overlap: from a.min <= b.max follows f(a.min) <= f(b.max), however f rounds. So the pairs of the mapped boxes include
+// all pairs of the given ones, each is then tested on the boxes as given, and exactness depends on no formula here. The
+// purpose of the map: in its coordinates the boxes of the pass are about as long on each axis, so a cubic cell holds
+// few, and scales that differ by powers of two lie side by side.
 //
-// Boxes are in groups by the axes that they are long on. There is a pass for each two groups; a pair of one group is
-// found in several, and kept in the one that owns the group.
+// Boxes are grouped by the axes on which they are long. There is a pass for every two groups. Several passes find a
+// pair of boxes of one group, and only the pass that owns the group keeps it.
 #pragma once
 
 #include <bit>
@@ -21,16 +21,16 @@
 
 namespace broadside::core {
 
-// The map of one axis; it never falls.
+// The map of one axis; it is monotone.
 struct AxisMap {
   bool is_logarithmic = false;
-  std::int32_t zero_bits = 0;  // of a logarithmic map: magnitudes whose bits are below these are one with 0
+  std::int32_t zero_bits = 0;  // of a logarithmic map: magnitudes with smaller bits become 0
   float scale = 1.0F;          // a power of two
 
   // Finite for a finite coordinate. Logarithmic: the bits of a float, read as an integer, grow with its magnitude, by
-  // 2^23 a power of two.
+  // 2^23 for each power of two.
   [[nodiscard]] float operator()(float v) const {
-    // Far above every place that a plan makes (2^31), and far below what a sum of two could not hold.
+    // Far above every coordinate that a plan produces (2^31), and small enough that a sum of two does not overflow.
     constexpr float kMost = 0x1p120F;
     if (!is_logarithmic) {
       const float w = v * scale;
@@ -45,8 +45,8 @@ struct AxisMap {
 
 struct PassMap {
   AxisMap axis[3];
-  // Which axis of the given boxes is x, y and z: the one with the most cells is x, along which a GPU's table has its
-  // runs.
+  // Which axis of the given boxes becomes x, y and z: the one with the most cells becomes x, along which a GPU's table
+  // has its runs.
   std::uint8_t from[3] = {0, 1, 2};
 
   [[nodiscard]] Box operator()(const Box& b) const {
@@ -72,7 +72,7 @@ struct BoxPass {
   }
 };
 
-// Axes on which a box is at least a sixteenth as long as on its longest, a bit each.
+// One bit for each axis on which a box is at least a sixteenth as long as on its longest.
 inline constexpr float kThinBox = 0x1p-4F;
 inline std::uint32_t long_axes(const Box& b) {
   const float x = b.max.x - b.min.x;
@@ -85,9 +85,9 @@ inline std::uint32_t long_axes(const Box& b) {
 
 struct PassPlan {
   std::vector<BoxPass> passes;  // empty: one search of the boxes as they are is best
-  PassMap shapes;               // in whose coordinates a box's long axes are those of its group
+  PassMap shapes;               // the coordinates in which a box's long axes select its group
   std::uint8_t group_of[8] = {};
-  // Expected tests of pairs, by the model of box_passes.cpp.
+  // Expected tests of pairs, from the model of box_passes.cpp.
   double plain_tests = 0.0;
   double pass_tests = 0.0;
 
@@ -96,15 +96,16 @@ struct PassPlan {
   [[nodiscard]] std::uint32_t group(const Box& b) const { return group_of[long_axes(shapes(b))]; }
 };
 
-// Of fewer boxes a search takes some tens of microseconds, whatever they are.
+// A search of fewer boxes takes some tens of microseconds, whatever the boxes are.
 inline constexpr std::uint32_t kLeastBoxesForPasses = 4096;
 
-// From a sample of the boxes, a fixed one: the same boxes give the same plan. `largest_m`: the largest magnitude of a
-// coordinate, where it is known; else 0.
+// Computed from a fixed sample of the boxes: the same boxes give the same plan. `largest_m`: the largest magnitude of a
+// coordinate, where it is known; otherwise 0.
 PassPlan plan_passes(std::span<const Box> boxes, float largest_m = 0.0F,
                      std::uint32_t least_boxes = kLeastBoxesForPasses);
 
-// The same where the boxes are elsewhere: which of them the plan looks at, and the plan from these. Sound boxes.
+// The same in two steps, where the boxes are elsewhere: which boxes the plan needs, and the plan from them. They must
+// be valid.
 std::vector<std::uint32_t> boxes_to_plan_by(std::uint32_t count, std::uint32_t least_boxes = kLeastBoxesForPasses);
 PassPlan plan_passes_by_sample(const std::vector<Box>& sample, std::uint32_t count, float largest_m = 0.0F);
 

@@ -15,8 +15,8 @@ struct ContactGeometry {
 };
 
 // P(9), P(10). No contact unless the overlap is positive on every axis. Ties go to the lowest axis index. The sign is
-// that of the centers' difference on the chosen axis; centers that coincide on that axis give +, and bodies nearer than
-// epsilon in every axis take the fixed axis +x.
+// that of the centers' difference on the chosen axis. Where the centers coincide on that axis it is +, and bodies whose
+// centers are nearer than epsilon in every axis take the fixed axis +x.
 BROADSIDE_HD ContactGeometry box_contact(const Box& a, const Box& b, float epsilon_m) {
   ContactGeometry contact;
   const Vec3 ca = center(a);
@@ -41,8 +41,8 @@ BROADSIDE_HD ContactGeometry box_contact(const Box& a, const Box& b, float epsil
   return contact;
 }
 
-// Faces of the domain, 0..5 = -x +x -y +y -z +z, are static half-spaces: depth is the overshoot of the body's box, the
-// normal points inward. Ours: the paper keeps its bodies in a box and does not say how.
+// Faces of the domain, 0..5 = -x +x -y +y -z +z, are static half-spaces: the depth is how far the body's box passes the
+// face, and the normal points inward. These faces are ours: the paper keeps its bodies in a box and does not say how.
 BROADSIDE_HD ContactGeometry face_contact(const Box& body, const Box& domain, int face) {
   ContactGeometry contact;
   contact.axis = face >> 1;

@@ -1,4 +1,4 @@
-// The 64-bit digest of a frame: what two engines must share to count as bit-identical.
+// The 64-bit digest of a frame. Two engines count as bit-identical when their digests are equal.
 #pragma once
 
 #include <bit>
@@ -12,13 +12,13 @@
 
 namespace broadside::core {
 
-// Sum modulo 2^64 of one hash per body, per confirmed pair and per contact. A sum, so that any number of CPU or GPU
-// threads may add their records in any order; each record's hash starts from a seed and its own identity, so equal
-// records of different bodies do not cancel or swap unseen.
+// Sum modulo 2^64 of one hash per body, per confirmed pair and per contact. It is a sum so that any number of CPU or
+// GPU threads may add their records in any order. Each record's hash starts from a seed and the record's identity, so
+// that equal records of different bodies cannot cancel or be swapped without changing the sum.
 //
-// One multiplication to 128 bits takes in two words, and its halves are folded together. One multiplication of 64 bits
-// and three shifts per word took a sixth of all instructions of a sparse CPU frame. A word can only cancel when its
-// neighbour is one value out of 2^64.
+// One multiplication to 128 bits takes in two words and folds its halves together. The former hash, with one 64-bit
+// multiplication and three shifts per word, took a sixth of all instructions of a sparse CPU frame. A word can only
+// cancel when its neighbor is one value out of 2^64.
 class RecordHash {
  public:
   BROADSIDE_HD constexpr RecordHash(std::uint64_t seed, std::uint64_t identity)
@@ -29,11 +29,11 @@ class RecordHash {
     return *this;
   }
   BROADSIDE_HD constexpr RecordHash& add(float a, float b, float c, float d) { return add(word(a, b), word(c, d)); }
-  // A sum of records is only as good as each record's hash, so the last word is mixed as well as the first.
+  // A sum is only as good as the hash of each record, so the last word is mixed as well as the first.
   BROADSIDE_HD constexpr std::uint64_t value() const { return folded(h_ ^ kFirst, kSecond); }
 
  private:
-  // Odd, with half of their bits set: the fractions of the square roots of 2, 3 and 5, the first made odd.
+  // Odd, with half of their bits set: the fractional parts of the square roots of 2, 3 and 5, the first made odd.
   static constexpr std::uint64_t kFirst = 0x6a09e667f3bcc909ULL;
   static constexpr std::uint64_t kSecond = 0xbb67ae8584caa73bULL;
   static constexpr std::uint64_t kThird = 0x3c6ef372fe94f82bULL;
@@ -49,7 +49,7 @@ class RecordHash {
   std::uint64_t h_;
 };
 
-// The part of a body's record that stays the same while no body turns: engines that only translate hash it once.
+// The part of a body's record that never changes while no body turns: engines that only translate hash it once.
 BROADSIDE_HD constexpr RecordHash still_body_digest(std::uint32_t body, Quat q, Vec3 omega) {
   return RecordHash(0x626f6479ULL, body).add(q.w, q.x, q.y, q.z).add(omega.x, omega.y, omega.z, 0.0F);
 }

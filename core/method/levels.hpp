@@ -39,17 +39,18 @@ struct NodeBoxes {
   std::uint8_t level2_count;
 };
 
-// A box at a position, rounded once per bound: the same numbers wherever a node's world box is needed.
+// Whether two boxes overlap at given positions. Each bound is rounded once, so a node's world box has the same numbers
+// everywhere.
 BROADSIDE_HD bool overlaps_at(const Box& a, Vec3 xa, const Box& b, Vec3 xb) {
   return overlaps(translated(a, xa), translated(b, xb));
 }
 
-// Stands in for `tests` below when nobody counts: it does nothing and costs nothing.
+// Replaces `tests` below when nothing is counted: it does nothing and costs nothing.
 struct Uncounted {
   BROADSIDE_HD Uncounted& operator++() { return *this; }
 };
 
-// Each counts its box tests into `tests` by ++; they stop at the first overlap, so the count is part of the result.
+// Each function counts its box tests by ++tests. They stop at the first overlap, so the count is part of the result.
 template <typename Tests>
 BROADSIDE_HD bool level1_overlaps(const NodeBoxes& a, Vec3 xa, const NodeBoxes& b, Vec3 xb, Tests& tests) {
   for (int p = 0; p < a.level1_count; ++p) {
@@ -91,8 +92,8 @@ BROADSIDE_HD bool descent_overlaps(const NodeBoxes& a, Vec3 xa, const NodeBoxes&
   return false;
 }
 
-// True when boxes of this setting's last level overlap somewhere. A child box lies inside its parent's box, also after
-// rounding, so A, B and C always agree.
+// True when boxes of the last level in this setting overlap somewhere. A child box lies inside its parent's box, also
+// after rounding, so A, B and C always agree.
 template <typename Tests>
 BROADSIDE_HD bool is_confirmed(Levels levels, const NodeBoxes& a, Vec3 xa, const NodeBoxes& b, Vec3 xb, Tests& tests) {
   switch (levels) {

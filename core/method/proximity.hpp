@@ -12,7 +12,8 @@
 namespace broadside::core {
 
 // The nearest vertices of one confirmed pair, if nearer than theta. Indices are into each body's mesh. Ties go to the
-// lowest vertex of A, then of B, so the order of visiting cannot show. Not touching: squared distance is infinite.
+// lowest vertex of A, then of B, so that the result does not depend on the order of visiting. Not touching: the squared
+// distance is infinite.
 struct Proximity {
   float squared_distance_m2 = std::numeric_limits<float>::infinity();
   std::uint32_t vertex_a = 0xFFFFFFFFU;
@@ -40,10 +41,10 @@ BROADSIDE_HD float squared_distance(Vec3 a, Vec3 b) {
 }
 
 // True when no point of box a and no point of box b can count as nearer than theta, in the arithmetic of
-// squared_distance: rounding is monotone, so a gap that rounds to at least theta on one axis makes the rounded square
-// at least the rounded theta squared. Skipping on it therefore never changes a result.
-// This is where we leave the paper: P-Alg A2 keeps only vertices inside boxes that overlap exactly, and so can miss the
-// nearest vertices when they sit in boxes that are apart by less than theta.
+// squared_distance. Rounding is monotone, so a gap that rounds to at least theta on one axis makes the rounded square
+// at least the rounded theta squared. Skipping such boxes therefore never changes a result.
+// Here we depart from the paper: P-Alg A2 keeps only vertices inside boxes that overlap exactly, and so can miss the
+// nearest vertices when they are in boxes that are less than theta apart.
 BROADSIDE_HD bool apart_by(const Box& a, const Box& b, float theta_m) {
   return a.min.x - b.max.x >= theta_m || b.min.x - a.max.x >= theta_m || a.min.y - b.max.y >= theta_m ||
          b.min.y - a.max.y >= theta_m || a.min.z - b.max.z >= theta_m || b.min.z - a.max.z >= theta_m;

@@ -13,8 +13,8 @@
 
 namespace broadside::core {
 
-// The paper has no faces, so its swapped masses (E3) are a matter of pairs alone: a body that never leaves the floor
-// would hide them behind another fault.
+// The paper has no faces, so its swapped masses (E3) apply to pairs alone. At a face, a body would never leave the
+// floor, and that would hide the swap behind another fault.
 BROADSIDE_HD constexpr Variant face_variant(Variant variant) {
   return variant == Variant::kE3 ? Variant::kSound : variant;
 }
@@ -22,18 +22,18 @@ BROADSIDE_HD constexpr Variant face_variant(Variant variant) {
 // P(11), P(12) in P-Alg 3's form, P(13). wA + wB > 0.
 BROADSIDE_HD void correct_positions(Contact& c, float w_a, float w_b, const Parameters& p, Variant variant) {
   const float above_slop = c.depth_m - p.delta_m;
-  // E4, P(14): without the clamp a contact inside the slop is pulled deeper.
+  // E4, P(14): without the clamp, a contact inside the slop is pushed deeper.
   const float corrected = (above_slop > 0.0F || variant == Variant::kE4) ? above_slop : 0.0F;
   const float magnitude = p.alpha * (p.beta * corrected);
-  // E3, P(12): each body is given the other's share.
+  // E3, P(12): each body is given the other body's share.
   const float share_a = (variant == Variant::kE3 ? w_b : w_a) / (w_a + w_b);
   const float share_b = (variant == Variant::kE3 ? w_a : w_b) / (w_a + w_b);
   c.post_a.x = c.pre_a.x + (share_a * magnitude) * c.normal;
   c.post_b.x = c.pre_b.x - (share_b * magnitude) * c.normal;
 }
 
-// P(17), P(18). v_n < 0 (approaching). The floor J_min is applied only up to the energy-neutral impulse, the one that
-// restitution 1 would give; as printed it adds energy to light or slow bodies (E5).
+// P(17), P(18). v_n < 0 (approaching). The floor J_min is applied only up to the energy-neutral impulse, which is the
+// one that restitution 1 would give; as printed it adds energy to light or slow bodies (E5).
 BROADSIDE_HD float normal_impulse(float v_n, float w_sum, float restitution, const Parameters& p, Variant variant) {
   const float e = -v_n < p.v_threshold_m_s ? 0.0F : restitution;
   const float impulse = -(1.0F + e) * v_n / w_sum;
@@ -44,7 +44,7 @@ BROADSIDE_HD float normal_impulse(float v_n, float w_sum, float restitution, con
   return impulse > floor ? impulse : floor;
 }
 
-// P(20), P(21): signed along the direction of sliding, so a sound one is <= 0.
+// P(20), P(21): signed along the direction of sliding, so a correct one is <= 0.
 BROADSIDE_HD float tangent_impulse(float slide_speed, float w_sum, float j_n, const Material& m, Variant variant) {
   const float stop = -slide_speed / w_sum;
   if (-stop <= m.mu_static * j_n) return stop;
@@ -52,7 +52,7 @@ BROADSIDE_HD float tangent_impulse(float slide_speed, float w_sum, float j_n, co
   return variant == Variant::kE6 ? m.mu_kinetic * j_n : -m.mu_kinetic * j_n;
 }
 
-// P(16) to P(22). Friction uses the velocities before the normal impulse, as P(16) defines v_t once.
+// P(16) to P(22). Friction uses the velocities before the normal impulse, because P(16) defines v_t only once.
 BROADSIDE_HD void update_velocities(Contact& c, float w_a, float w_b, const Material& m, const Parameters& p,
                                     Variant variant) {
   const Vec3 relative = c.pre_a.v - c.pre_b.v;
@@ -72,7 +72,7 @@ BROADSIDE_HD void update_velocities(Contact& c, float w_a, float w_b, const Mate
   c.post_b.v = c.post_b.v - (w_b * c.tangent_impulse_n_s) * c.tangent;
 }
 
-// One whole application: fills normal, depth, impulses and post states from the pre states in c.
+// One whole application: computes normal, depth, impulses and post states from the pre states in c.
 BROADSIDE_HD void respond(Contact& c, const ContactGeometry& geometry, float w_a, float w_b, const Material& m,
                           const Parameters& p, Variant variant) {
   c.depth_m = geometry.depth_m;
@@ -86,7 +86,7 @@ BROADSIDE_HD void respond(Contact& c, const ContactGeometry& geometry, float w_a
   update_velocities(c, w_a, w_b, m, p, variant);
 }
 
-// P(23): each component, not the speed.
+// P(23): limits each component, not the speed.
 BROADSIDE_HD Vec3 clipped(Vec3 v, float v_max) {
   for (int k = 0; k < 3; ++k) {
     if (v[k] > v_max) v[k] = v_max;

@@ -1,5 +1,5 @@
-// Orders of the cells of a cubic grid: Morton's, which an octree's nodes follow, and Hilbert's, in which neighbours in
-// the order are always neighbours in space.
+// Orders of the cells of a cubic grid: Morton's, which an octree's nodes follow, and Hilbert's, in which neighbors in
+// the order are always neighbors in space.
 #pragma once
 
 #include <cstdint>
@@ -8,10 +8,10 @@
 
 namespace broadside::core {
 
-// Cell coordinates have at most this many bits, so that a code fits 32.
+// Cell coordinates have at most this many bits, so that a code fits in 32.
 inline constexpr int kCurveBits = 10;
 
-// The bits of a 10-bit number, three apart.
+// Spreads the bits of a 10-bit number to every third bit.
 BROADSIDE_HD constexpr std::uint32_t spread_by_three(std::uint32_t v) {
   v = (v | (v << 16U)) & 0x030000FFU;
   v = (v | (v << 8U)) & 0x0300F00FU;
@@ -25,8 +25,8 @@ BROADSIDE_HD constexpr std::uint32_t morton_code(std::uint32_t x, std::uint32_t 
 }
 
 // Hilbert's order by Skilling's transposed form ("Programming the Hilbert curve", AIP Conf. Proc. 707, 2004): one step
-// for each bit of the coordinates from the highest down to bit 1, then the finish. Written without branches and one
-// step at a time so that a loop over many cells per step vectorizes, and a GPU thread does not diverge.
+// for each bit of the coordinates from the highest down to bit 1, then a final step. It has no branches and exposes
+// single steps, so that a loop over many cells per step vectorizes and GPU threads do not diverge.
 struct CurveCell {
   std::uint32_t x = 0;
   std::uint32_t y = 0;
@@ -35,7 +35,7 @@ struct CurveCell {
 
 BROADSIDE_HD constexpr void hilbert_step(std::uint32_t& x, std::uint32_t& y, std::uint32_t& z, int bit) {
   const std::uint32_t low = (1U << static_cast<unsigned>(bit)) - 1U;
-  // Where an axis has the bit: invert the low bits of x; where not: exchange them with that axis.
+  // Where the axis has the bit, invert the low bits of x; where it has not, exchange them with those of that axis.
   std::uint32_t has = 0U - ((x >> static_cast<unsigned>(bit)) & 1U);
   x ^= low & has;
   has = 0U - ((y >> static_cast<unsigned>(bit)) & 1U);

@@ -7,12 +7,12 @@
  * i, B = j; a contact normal has length 1 and points from B to A; depth > 0 and distance < 0 are penetration; two boxes
  * overlap when their closed intervals meet on all three axes (touching counts); two static bodies are no pair.
  *
- * Memory. Every array belongs to the caller and is valid during the call alone, except a scene's (until end()). Where
- * `memory` is BROADSIDE_CUDA, arrays of boxes, pairs, poses, separations and states are CUDA device pointers of device
- * 0; meshes, counts and the scene's structs stay on the host.
+ * Memory. Every array belongs to the caller and is valid only during the call, except a scene's arrays (until end()).
+ * Where `memory` is BROADSIDE_CUDA, arrays of boxes, pairs, poses, separations and states are CUDA device pointers of
+ * device 0; meshes, counts and the scene's structs stay on the host.
  *
- * Outputs have a capacity, in elements. Write at most that many, and always say in *demanded how many there are: the
- * caller then comes again with more room. The memory behind an output's end cannot be written.
+ * Outputs have a capacity, in elements. Write at most that many, and always set *demanded to how many there are: the
+ * caller then calls again with more room. The memory after an output's end cannot be written.
  *
  * Return BROADSIDE_OK, or BROADSIDE_FAILED with a line in last_error. Calls for one engine never overlap; threads of
  * your own are welcome. */
@@ -65,7 +65,7 @@ typedef struct {
   float angular_velocity[3]; /* rad/s */
 } broadside_state;
 
-/* One application of the response. Fields before and after it; of a face, B's are zero. */
+/* One application of the response, with the states before and after it; for a face, B's fields are zero. */
 typedef struct {
   uint32_t a;
   uint32_t b;
@@ -110,14 +110,14 @@ typedef struct {
   float theta;      /* vertices nearer than this touch, m; 0 = the mean edge length of the two meshes */
 } broadside_scene;
 
-/* A setting of yours, a number: --engine './libmine.so[cell_mm=250]'. */
+/* A setting of your engine, a number: --engine './libmine.so[cell_mm=250]'. */
 typedef struct {
   const char* key; /* lower case, digits, underscores */
   uint64_t default_value;
   const char* what;
 } broadside_setting;
 
-/* Groups of functions that are not offered are null, all of a group together. */
+/* When you do not offer a group of functions, all functions of that group are null. */
 typedef struct {
   uint32_t abi;      /* BROADSIDE_ENGINE_ABI */
   uint32_t size;     /* sizeof(broadside_engine) */
@@ -131,20 +131,20 @@ typedef struct {
   const broadside_setting* settings;
   uint32_t setting_count;
 
-  /* values[k] belongs to settings[k]. Null on failure. */
+  /* values[k] is the value of settings[k]. Returns null on failure. */
   void* (*create)(const uint64_t* values);
   void (*destroy)(void* self);
-  /* One line about the last failure; of create when self is null. */
+  /* One line about the last failure; when self is null, about the failure of create. */
   const char* (*last_error)(void* self);
 
-  /* Broad phase. load is not timed; update and find are; update has as many boxes as load. find may follow load. */
+  /* Broad phase. load is not timed; update and find are. update gets as many boxes as load. find may follow load. */
   int (*load_boxes)(void* self, const broadside_box* boxes, const uint8_t* is_static, uint32_t count);
   int (*update_boxes)(void* self, const broadside_box* boxes, uint32_t count);
   int (*find_pairs)(void* self);
-  /* Any order, no pair twice. */
+  /* In any order, each pair once. */
   int (*read_pairs)(void* self, broadside_pair* pairs, uint64_t capacity, uint64_t* demanded);
 
-  /* Narrow phase. load_scene is not timed; measure is; one separation per pair, in order. */
+  /* Narrow phase. load_scene is not timed; measure is. One separation per pair, in order. */
   int (*load_scene)(void* self, const broadside_scene* scene);
   int (*measure)(void* self, const broadside_pair* pairs, uint64_t pair_count, const broadside_pose* poses,
                  uint32_t body_count);
@@ -156,7 +156,7 @@ typedef struct {
   int (*read_states)(void* self, broadside_state* states, uint32_t body_count);
   /* May be null: contacts of the last step in the order of application. */
   int (*read_contacts)(void* self, broadside_contact* contacts, uint64_t capacity, uint64_t* demanded);
-  /* Narrow phase and dynamics: the scene's memory goes. May be null. */
+  /* Narrow phase and dynamics: after this call the scene's memory is freed. May be null. */
   void (*end)(void* self);
 } broadside_engine;
 

@@ -1,20 +1,21 @@
-/* Broadside's engine interface, version 2: for engines whose bodies turn, and for those that say what they are.
+/* Broadside's engine interface, version 2: for engines whose bodies turn, and for engines that declare what they do.
  *
- * Export broadside_engine_v2 instead of broadside_engine_v1, or beside it: then version 2 is used. The rules of
- * broadside_engine.h about signs, memory and outputs hold here too. New are:
+ * Export broadside_engine_v2 instead of broadside_engine_v1. If you export both, version 2 is used. The rules of
+ * broadside_engine.h about signs, memory and outputs apply here too. New are:
  *
- *   the declaration   what the engine says of itself; laws are chosen by it (core/trace/FOREIGN.md lists keys and
- * words) the scene         inertia, center of mass, shapes in closed form, wrenches, everything that laws read
+ *   the declaration   what the engine declares; laws are chosen by it (core/trace/FOREIGN.md lists the keys)
+ *   the scene         inertia, center of mass, shapes in closed form, wrenches, everything that laws read
  *   read_states       float64, with orientation and angular velocity
- *   read_points       totals: one row a point of contact and step
- *   read_detection    poses and boxes that collision detection saw, and read_step_pairs the pairs that it found
+ *   read_points       totals: one row per point of contact and step
+ *   read_detection    poses and boxes that collision detection saw
+ *   read_step_pairs   pairs that collision detection found
  *
- * Growth. `size` in the table is the sizeof of the header that the library was built with; functions behind its end are
- * taken for null. `size` in a scene is the sizeof that Broadside was built with, and arrays in it have a stride:
- * element k of bodies lies at (const char*)bodies + k * body_size. A library that looks no further than its own header
- * knows may ignore both. Records that a library writes never change; a new one gets a new function.
+ * Compatibility. `size` in the table is the size of the table in the header with which the library was built; functions
+ * past that size count as null. `size` in a scene is the size with which Broadside was built, and the scene's arrays
+ * have a stride: element k of bodies is at (const char*)bodies + k * body_size. A library that uses only what its own
+ * header has may ignore both. Records that a library writes never change; a new record gets a new function.
  *
- * No record has padding: a program engine (PROGRAMS.md) is sent and sends the same bytes. */
+ * No record has padding: a program engine (PROGRAMS.md) receives and sends the same bytes. */
 #ifndef BROADSIDE_ENGINE_V2_H
 #define BROADSIDE_ENGINE_V2_H
 
@@ -39,8 +40,8 @@ extern "C" {
 #define BROADSIDE_WORLD_AXES 0
 #define BROADSIDE_BODY_AXES 1
 
-/* What a mesh is a drawing of, centered at the mesh's origin. An engine that has not this shape fails in begin with
- * "unsupported: cylinder" and takes no other one. */
+/* The shape that a mesh represents, centered at the mesh's origin. An engine that does not have this shape must fail in
+ * begin with "unsupported: cylinder" and must not use another shape instead. */
 typedef struct {
   uint32_t kind;          /* BROADSIDE_BOX ... BROADSIDE_MESH */
   uint32_t axis;          /* capsule, cylinder: 0, 1 or 2 */
@@ -69,7 +70,7 @@ typedef struct {
   double restitution;
 } broadside_body2;
 
-/* A constant force at the center of mass and a constant torque on one body, in every step, beside gravity. */
+/* A constant force at the center of mass and a constant torque on one body, in every step, in addition to gravity. */
 typedef struct {
   uint32_t body;
   uint32_t axes;    /* BROADSIDE_WORLD_AXES or BROADSIDE_BODY_AXES */
@@ -83,7 +84,7 @@ typedef struct {
   uint32_t motion; /* BROADSIDE_TRANSLATE or BROADSIDE_RIGID */
   const char* name;
   const broadside_mesh* meshes;
-  const broadside_shape* shapes; /* one a mesh */
+  const broadside_shape* shapes; /* one per mesh */
   const broadside_body2* bodies;
   const broadside_wrench* wrenches;
   uint32_t mesh_size; /* strides, in bytes */
@@ -103,8 +104,8 @@ typedef struct {
   double dt;          /* s */
   double delta;       /* slop: penetration that may stay, m */
   double v_threshold; /* slower approaches do not bounce, m/s */
-  double v_max;       /* of engines of METHOD alone: each component of a velocity is clipped to it, m/s */
-  double theta;       /* of engines of METHOD alone: vertices nearer than this touch, m */
+  double v_max;       /* only for engines of METHOD: each component of a velocity is clipped to it, m/s */
+  double theta;       /* only for engines of METHOD: vertices nearer than this touch, m */
   uint64_t seed;
 } broadside_scene2;
 
@@ -116,7 +117,7 @@ typedef struct {
   double normal[3];  /* unit, from B to A */
   double gap;        /* at detection, along the normal, m; negative is penetration */
   double impulse[3]; /* N s on A, of the whole step: normal part and friction together */
-  uint32_t feature;  /* your own name of this point, the same while it lasts; 0 = none */
+  uint32_t feature;  /* your own id of this point, the same while it lasts; 0 = none */
   uint32_t reserved; /* 0 */
 } broadside_point;
 
@@ -134,7 +135,7 @@ typedef struct {
   const char* value;
 } broadside_declared;
 
-/* Groups of functions that are not offered are null, all of a group together. */
+/* When you do not offer a group of functions, all functions of that group are null. */
 typedef struct {
   uint32_t abi;      /* BROADSIDE_ENGINE_ABI_2 */
   uint32_t size;     /* sizeof(broadside_engine2) */
@@ -143,12 +144,12 @@ typedef struct {
   const char* what;  /* one line for listings */
   uint32_t memory;   /* BROADSIDE_HOST or BROADSIDE_CUDA: of the arrays of the broad and the narrow phase */
   uint32_t is_exact; /* pairs: 1 = exactly the overlapping pairs of the boxes; 0 = a superset */
-  double margin_m;   /* by which it fattens boxes */
+  double margin_m;   /* by which it enlarges boxes */
 
   const broadside_setting* settings;
   uint32_t setting_count;
   uint32_t declared_count;
-  const broadside_declared* declared; /* of the dynamics; what is absent takes FOREIGN.md's default */
+  const broadside_declared* declared; /* for the dynamics; absent keys take FOREIGN.md's default */
 
   /* As in version 1. */
   void* (*create)(const uint64_t* values);
@@ -167,12 +168,12 @@ typedef struct {
   int (*begin)(void* self, const broadside_scene2* scene);
   int (*step)(void* self, double dt);
   int (*read_states)(void* self, broadside_state2* states, uint32_t body_count);
-  /* Each may be null. Of the last step. */
+  /* Each may be null. They report on the last step. */
   int (*read_points)(void* self, broadside_point* points, uint64_t capacity, uint64_t* demanded);
   int (*read_contacts)(void* self, broadside_contact* contacts, uint64_t capacity, uint64_t* demanded);
   int (*read_detection)(void* self, broadside_detection* bodies, uint32_t body_count);
   int (*read_step_pairs)(void* self, broadside_pair* pairs, uint64_t capacity, uint64_t* demanded);
-  /* Narrow phase and dynamics: the scene's memory goes. May be null. */
+  /* Narrow phase and dynamics: after this call the scene's memory is freed. May be null. */
   void (*end)(void* self);
 } broadside_engine2;
 

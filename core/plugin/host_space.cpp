@@ -42,14 +42,14 @@ class GuardedBlock final : public MemoryBlock {
   [[nodiscard]] char* inside() const { return pages_ + page_bytes(); }
 
   char* pages_;
-  std::size_t page_count_;  // without the two guards
+  std::size_t page_count_;  // without the two guard pages
   std::size_t bytes_;
 };
 
 class HostSpace final : public MemorySpace {
  public:
   Result<std::unique_ptr<MemoryBlock>> allocate(std::size_t wanted) override {
-    // Multiples of 8, so that the start is aligned for a double when the end is at a page's edge.
+    // Multiples of 8, so that when the end is at a page's edge, the start is aligned for a double.
     const std::size_t bytes = (std::max<std::size_t>(wanted, 1) + 7) / 8 * 8;
     const std::size_t page_count = (bytes + page_bytes() - 1) / page_bytes();
     const std::size_t all = (page_count + 2) * page_bytes();

@@ -1,4 +1,4 @@
-// Where a plug-in wants its arrays: on the host or on the device. The adapter knows only this interface.
+// Where a plug-in needs its arrays: on the host or on the device. The adapter knows only this interface.
 #pragma once
 
 #include <cstddef>
@@ -8,12 +8,12 @@
 
 namespace broadside::core {
 
-// A block of bytes. Where the space can do it, memory behind the block's end cannot be written.
+// A block of bytes. Where the memory space supports it, memory after the block's end cannot be written.
 class MemoryBlock {
  public:
   virtual ~MemoryBlock() = default;
 
-  // What the plug-in is given.
+  // The address that is given to the plug-in.
   [[nodiscard]] virtual void* data() const = 0;
   [[nodiscard]] virtual std::size_t bytes() const = 0;
   virtual Status upload(const void* from, std::size_t bytes) = 0;
@@ -27,11 +27,12 @@ class MemorySpace {
  public:
   virtual ~MemorySpace() = default;
 
-  // At least one byte. Error: out of memory, with the amount.
+  // Allocates at least one byte. Error: out of memory, with the amount.
   virtual Result<std::unique_ptr<MemoryBlock>> allocate(std::size_t bytes) = 0;
 };
 
-// Each block has its own pages between two guard pages that cannot be touched, and ends at the guard page behind it.
+// Each block has pages of its own between two guard pages that cannot be accessed, and it ends where the second guard
+// page begins.
 std::unique_ptr<MemorySpace> make_host_space();
 
 }  // namespace broadside::core

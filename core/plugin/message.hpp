@@ -1,5 +1,5 @@
-// Bytes of the program engines' protocol: little-endian numbers, texts with their length in front, rows of C structs as
-// they lie in memory.
+// Bytes of the protocol for program engines: little-endian numbers, texts with their length in front, rows of C structs
+// as they are in memory.
 #pragma once
 
 #include <bit>
@@ -16,7 +16,8 @@ namespace broadside::core {
 
 static_assert(std::endian::native == std::endian::little, "rows are sent as they lie in memory");
 
-// What may be sent as it lies in memory: the structs of broadside_engine.h and broadside_engine_v2.h, and numbers.
+// Types that may be sent as they are in memory: the structs of broadside_engine.h and broadside_engine_v2.h, and
+// numbers.
 template <typename T>
 concept MessageRow = std::is_trivially_copyable_v<T> && !std::is_pointer_v<T>;
 
@@ -44,8 +45,8 @@ class MessageWriter {
   std::vector<std::byte> bytes_;
 };
 
-// Reads what may be anything. After the first value that is not there every value is zero or empty, and failed() says
-// so: ask it once at the end.
+// Reads bytes that may be anything. After the first value that is missing, every value is zero or empty and failed() is
+// true: ask once at the end.
 class MessageReader {
  public:
   explicit MessageReader(std::span<const std::byte> bytes) : bytes_(bytes) {}
@@ -56,7 +57,7 @@ class MessageReader {
     copy(&value, sizeof value);
     return value;
   }
-  // A text of at most `most` bytes.
+  // Reads a text of at most `most` bytes.
   std::string text(std::size_t most) {
     const auto size = get<std::uint32_t>();
     if (size > most || size > left()) {
@@ -67,7 +68,7 @@ class MessageReader {
     copy(value.data(), size);
     return value;
   }
-  // No memory is taken for rows that are not there.
+  // Allocates no memory for rows that are missing.
   template <MessageRow T>
   std::vector<T> rows(std::uint64_t count) {
     if (count > left() / sizeof(T)) failed_ = true;
@@ -78,7 +79,7 @@ class MessageReader {
 
   [[nodiscard]] std::size_t left() const { return bytes_.size(); }
   [[nodiscard]] bool failed() const { return failed_; }
-  // Everything was there, and nothing more is.
+  // Everything was there, and nothing is left over.
   [[nodiscard]] bool is_read_whole() const { return !failed_ && bytes_.empty(); }
 
  private:

@@ -10,20 +10,20 @@ namespace {
 constexpr std::string_view kAdvice =
     "standard output carries the protocol alone, and text for people goes to standard error";
 
-// No padding: what is sent is what the page lists.
+// These structs have no padding, so the bytes that are sent are those that PROGRAMS.md lists.
 static_assert(sizeof(broadside_box) == 24 && sizeof(broadside_pair) == 8 && sizeof(broadside_pose) == 28);
 static_assert(sizeof(broadside_separation) == 48 && sizeof(broadside_contact) == 140);
 static_assert(sizeof(broadside_state2) == 104 && sizeof(broadside_point) == 96 && sizeof(broadside_detection) == 104);
 static_assert(sizeof(broadside_shape) == 48 && sizeof(broadside_body2) == 216 && sizeof(broadside_wrench) == 56);
 
-// Lists in a hello are short: what is longer is a wrong count.
+// Lists in a hello are short: a longer one means a wrong count.
 constexpr std::uint32_t kMostListed = 256;
 
 Error garbled(std::string what) {
   return {std::move(what), "", std::string(kAdvice), Exit::kBadInput};
 }
 
-// Length of the UTF-8 character that begins the text; 0 when none does. RFC 3629.
+// Length of the UTF-8 character at the beginning of the text; 0 when there is none. RFC 3629.
 std::size_t utf8_length(std::string_view text) {
   const auto at = [text](std::size_t k) { return static_cast<unsigned char>(k < text.size() ? text[k] : 0); };
   const auto follows = [&](std::size_t k) { return (at(k) & 0xC0U) == 0x80U; };
@@ -78,7 +78,7 @@ std::vector<std::byte> request(ProgramCall call, const MessageWriter& payload) {
 MessageWriter hello_request() {
   MessageWriter message;
   message.rows(std::span<const char>(kProtocolMagic.data(), kProtocolMagic.size()));
-  message.put(kProtocolVersion).put(kProtocolVersion);  // lowest and highest that are spoken here
+  message.put(kProtocolVersion).put(kProtocolVersion);  // lowest and highest version supported here
   return message;
 }
 

@@ -1,4 +1,4 @@
-// What an engine that is a program is asked, and what it answers: PROGRAMS.md.
+// The requests to an engine that is a program, and its answers: PROGRAMS.md.
 #pragma once
 
 #include <cstdint>
@@ -17,11 +17,11 @@ inline constexpr std::string_view kProtocolMagic = "BROADSID";
 inline constexpr std::uint32_t kProtocolVersion = 1;
 inline constexpr std::uint32_t kAnswerOk = 0;
 inline constexpr std::uint32_t kAnswerFailed = 1;
-// Of an answer to hello, and of the text of a failure.
+// Limits in bytes: an answer to hello, and the text of a failure.
 inline constexpr std::uint32_t kMostHelloBytes = 1U << 20U;
 inline constexpr std::uint32_t kMostTextBytes = 4096;
 
-// The functions of broadside_engine2. destroy is the end of the program's input.
+// The functions of broadside_engine2. destroy has no call: closing the program's input stands for it.
 enum class ProgramCall : std::uint32_t {
   kHello = 1,
   kCreate = 2,
@@ -42,7 +42,7 @@ enum class ProgramCall : std::uint32_t {
   kEnd = 17,
 };
 
-// "read_points", as the function is called.
+// The function's name, such as "read_points".
 std::string_view call_word(ProgramCall call);
 
 // Bits of ProgramHello::offers.
@@ -54,10 +54,10 @@ enum class Offers : std::uint32_t {
   kContacts = 1U << 4,
   kDetection = 1U << 5,
   kStepPairs = 1U << 6,
-  kStepSeconds = 1U << 7,  // answers to step say how long it took by the program's own clock
+  kStepSeconds = 1U << 7,  // answers to step contain the time that it took by the program's own clock
 };
 
-// What a program says of itself: the table of broadside_engine2.
+// What a program declares about itself: the same as the table of broadside_engine2.
 struct ProgramHello {
   struct Setting {
     std::string key;
@@ -83,24 +83,24 @@ struct ProgramHello {
   friend bool operator==(const ProgramHello&, const ProgramHello&) = default;
 };
 
-// The length in front, then the call.
+// The length of what follows, then the call and its payload.
 std::vector<std::byte> request(ProgramCall call, const MessageWriter& payload);
 
 MessageWriter hello_request();
-// The error says which part is wrong. `payload`: behind the status.
+// The error says which part is wrong. `payload`: the bytes after the status.
 Result<ProgramHello> read_hello(std::span<const std::byte> payload);
 
 MessageWriter scene_request(const broadside_scene2& scene);
 
-// The first eight bytes of an answer: u32 length of what follows it, u32 status.
+// The first eight bytes of an answer: u32 length of the rest, u32 status.
 struct AnswerHead {
   std::uint32_t payload_bytes = 0;
   bool is_failure = false;
 };
-// most_bytes: what the payload of a good answer may have.
+// most_bytes: the largest payload of a good answer.
 Result<AnswerHead> read_answer_head(std::span<const std::byte, 8> head, std::uint64_t most_bytes);
 
-// Of a call that reads rows: u64 how many there are, then at most `capacity` of them.
+// Reads the answer of a call that reads rows: u64 number of rows, then at most `capacity` of them.
 template <MessageRow T>
 struct AnsweredRows {
   std::uint64_t demanded = 0;
@@ -121,7 +121,7 @@ Result<AnsweredRows<T>> read_rows_answer(std::span<const std::byte> payload, std
   return answered;
 }
 
-// One line without control characters, and valid UTF-8: text of a program or a library, as it may be shown.
+// Text of a program or a library, made safe to show: one line of valid UTF-8 without control characters.
 std::string shown_text(std::string_view text);
 bool is_plain_text(std::string_view text);
 

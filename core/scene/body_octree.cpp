@@ -8,7 +8,7 @@ struct OctreeCell {
   Vec3 max;
 };
 
-// The octant of v in the cell: bit 0 for x, 1 for y, 2 for z. The cell shrinks to that octant.
+// Returns the octant of v in the cell (bit 0 for x, 1 for y, 2 for z), and shrinks the cell to that octant.
 int descend(OctreeCell& cell, Vec3 v) {
   int octant = 0;
   for (int k = 0; k < 3; ++k) {

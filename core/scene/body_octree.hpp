@@ -20,15 +20,15 @@ constexpr int first_child(int node) {
   return 8 * node + 1;
 }
 
-// Boxes and vertices are in body coordinates after the body's orientation was applied: world = this + position.
-// A node's box is the tight box of its vertices; a node without vertices has the empty box and is skipped. An octant is
-// upper on an axis when the vertex is at or above the center of its cell; cells halve the root box.
+// Boxes and vertices are in body coordinates, with the body's orientation already applied: world = this + position. A
+// node's box is the tight box of its vertices; a node without vertices has the empty box and is skipped. A vertex is in
+// the upper octant on an axis when it is at or above the center of its cell; cells halve the root box.
 struct BodyOctree {
   std::array<Box, kBodyOctreeNodes> boxes;
-  // P-Alg A1: the leaf (0..63, counted within level 2) of each vertex of the mesh.
+  // P-Alg A1: the leaf of each vertex of the mesh (0..63, counted within level 2).
   std::vector<std::uint8_t> leaf_of_vertex;
-  // Vertices by leaf, in the mesh's order within a leaf: leaf k has sorted_vertices[leaf_begin[k] .. leaf_begin[k+1]).
-  // Leaves of one level-1 node are neighbors, so any node is one contiguous range.
+  // Vertices sorted by leaf, and within a leaf in the mesh's order: leaf k has sorted_vertices[leaf_begin[k] ..
+  // leaf_begin[k+1]). Leaves of one level-1 node are neighbors, so every node is one contiguous range.
   std::array<std::uint32_t, 65> leaf_begin;
   std::vector<std::uint32_t> sorted_indices;  // sorted -> index in the mesh
   std::vector<Vec3> sorted_vertices;

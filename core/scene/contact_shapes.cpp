@@ -35,7 +35,8 @@ ContactShape of_primitive(const Primitive& p) {
   const bool is_long = p.kind == PrimitiveKind::kCapsule || p.kind == PrimitiveKind::kCylinder;
   out.half_length_m = is_long ? p.half_length_m() : 0.0F;
   const std::array corner{p.half_extents};
-  // A box and a cylinder reach their corners; the sum of both lengths is no less.
+  // A box reaches its corners. Radius plus half length is exact for a sphere and a capsule, and no less than a
+  // cylinder's reach.
   if (p.kind == PrimitiveKind::kBox) out.size_m = farthest_m(corner);
   if (p.kind != PrimitiveKind::kBox) out.size_m = out.radius_m + out.half_length_m;
   return out;
@@ -65,7 +66,7 @@ class Builder {
   }
 
  private:
-  // Where the hull of a mesh begins in the tables; the same mesh with another center of mass shares it.
+  // Where the hull of a mesh begins in the tables; the same mesh with another center of mass shares the hull.
   struct HullPlace {
     std::size_t vertex = 0;
     std::size_t face = 0;

@@ -1,4 +1,4 @@
-// The shapes that contacts of turning bodies are made of, one for each mesh and center of mass of a scene.
+// The shapes from which contacts of turning bodies are computed, one for each mesh and center of mass of a scene.
 #pragma once
 
 #include <cstdint>
@@ -12,9 +12,9 @@
 
 namespace broadside::core {
 
-// Owns what the views in `shapes` point to: each table holds those of all shapes, one after another, so it can be
-// copied to a device whole and the views moved by one offset. Moving the object keeps the views valid; copying is not
-// allowed.
+// Owns what the views in `shapes` point to. Each table holds the entries of all shapes, one after another, so a whole
+// table can be copied to a device and the views moved by one offset. Moving the object keeps the views valid; copying
+// is not allowed.
 struct ContactShapes {
   std::vector<ContactShape> shapes;
   std::vector<std::uint32_t> mesh_of_shape;
@@ -42,9 +42,9 @@ struct ContactShapes {
   ~ContactShapes() = default;
 };
 
-// mass: one a body, as all_mass_properties gives it. What primitive_of knows is that closed-form shape, a convex mesh
-// is its own hull, and a mesh that is open or crosses itself has its hull as for its inertia (hull_notes says so).
-// Other meshes, and flat ones, are their triangles.
+// mass: one per body, from all_mass_properties. A mesh that primitive_of recognizes becomes that closed-form shape, a
+// convex mesh is its own hull, and a mesh that is open or crosses itself is replaced by its hull, as for its inertia
+// (hull_notes reports it). Other meshes, and flat ones, are represented by their triangles.
 Result<ContactShapes> build_contact_shapes(const Scene& scene, std::span<const MassProperties> mass);
 
 }  // namespace broadside::core

@@ -13,8 +13,8 @@ namespace {
 
 using exact::Point;
 
-// Corners of one face are one rounding off its plane each, and so are those that the plane was made of: 8 of 2^-24 of
-// the size.
+// Corners of one face, and the corners that define its plane, are each off by one rounding: together 8 of 2^-24 of the
+// size.
 constexpr double kInPlane = 8.0 * 0x1p-24;
 
 using Loop = std::vector<std::uint32_t>;
@@ -28,7 +28,7 @@ class Faces {
       for (std::size_t k = 0; k < 3; ++k) beside_[{mesh.triangles[t][k], mesh.triangles[t][(k + 1) % 3]}] = t;
   }
 
-  // Largest triangles first: their planes are known best.
+  // Starts with the largest triangles, because their planes are the most accurate.
   HullTables tables() {
     std::vector<std::uint32_t> order(mesh_.triangles.size());
     std::vector<double> area(order.size());
@@ -77,7 +77,7 @@ class Faces {
         members.push_back(other);
       }
     Loop loop = rim(members, seed);
-    if (loop.empty()) {  // no single loop: its triangles stay faces of their own
+    if (loop.empty()) {  // the rim is not a single loop: its triangles stay separate faces
       for (const std::uint32_t t : members) add_polygon({mesh_.triangles[t].begin(), mesh_.triangles[t].end()}, normal);
       return;
     }
@@ -88,7 +88,7 @@ class Faces {
     add_polygon(loop, normal);
   }
 
-  // The edges of the members that lead out of the face, as one loop.
+  // The edges of the members that border on other faces, as one loop.
   [[nodiscard]] Loop rim(const std::vector<std::uint32_t>& members, std::uint32_t seed) const {
     std::map<std::uint32_t, std::uint32_t> next;
     for (const std::uint32_t t : members)
@@ -176,9 +176,9 @@ class Faces {
 
   const Mesh& mesh_;
   double near_ = 0.0;
-  std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> beside_;  // a directed edge's triangle
-  std::vector<std::uint32_t> group_;                                         // of a triangle: the seed of its face
-  std::map<std::uint32_t, std::uint32_t> numbers_;                           // of the mesh's vertices, in the tables
+  std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> beside_;  // by directed edge: its triangle
+  std::vector<std::uint32_t> group_;                                         // by triangle: the seed of its face
+  std::map<std::uint32_t, std::uint32_t> numbers_;  // by the mesh's vertices: their numbers in the tables
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> sides_;
   HullTables out_;
 };

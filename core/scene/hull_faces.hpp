@@ -1,4 +1,4 @@
-// The faces and edges of a convex polyhedron that is given by triangles: triangles of one plane are one face.
+// The faces and edges of a convex polyhedron that is given by triangles: triangles in one plane form one face.
 #pragma once
 
 #include <cstdint>
@@ -10,11 +10,11 @@
 namespace broadside::core {
 
 struct HullTables {
-  std::vector<Vec3> vertices;  // those on the hull's edges
+  std::vector<Vec3> vertices;  // the vertices on the hull's edges
   std::vector<HullFace> faces;
   std::vector<std::uint32_t> corners;
   std::vector<HullEdge> edges;
-  std::vector<HullWay> ways;  // as HullView has them
+  std::vector<HullWay> ways;  // these three as in HullView
   std::vector<std::uint32_t> guide;
   std::vector<std::uint32_t> beyond;
 };

@@ -23,7 +23,7 @@ Position point_of(Vec3 v) {
   return {v.x, v.y, v.z};
 }
 
-// Volume and the integrals of x_i and x_i x_j over the volume, from the tetrahedra that the origin spans with each
+// Volume and the integrals of x_i and x_i x_j over the volume, summed over the tetrahedra between the origin and each
 // triangle.
 struct Moments {
   double volume = 0.0;
@@ -93,7 +93,7 @@ MassProperties of_primitive(const Primitive& p, double mass_kg) {
           static_cast<int>(k) == p.axis ? 0.5 * mass_kg * r * r : mass_kg * (r * r / 4.0 + half * half / 3.0);
     return out;
   }
-  // A capsule: a cylinder of length 2 l and the two halves of a ball.
+  // A capsule is a cylinder of length 2 l and two half balls.
   const double l = p.half_length_m();
   const double cylinder = 2.0 * std::numbers::pi * r * r * l;
   const double ball = 4.0 / 3.0 * std::numbers::pi * r * r * r;
@@ -105,8 +105,8 @@ MassProperties of_primitive(const Primitive& p, double mass_kg) {
   return out;
 }
 
-// Every load of a scene asks this four times of each mesh, and of a million triangles the answer takes seconds: so it
-// is kept for the meshes of this process, by the hash of what it depends on.
+// Every load of a scene asks this four times for each mesh, and for a million triangles the answer takes seconds. So it
+// is kept for this process, by a hash of what it depends on.
 bool crosses_itself(const Mesh& mesh) {
   static std::mutex mutex;
   static std::map<std::pair<std::uint64_t, std::uint64_t>, bool> known;
@@ -124,7 +124,7 @@ bool crosses_itself(const Mesh& mesh) {
   return crosses;
 }
 
-// Why what the mesh's triangles enclose is no solid; empty when it is one.
+// Why the volume enclosed by the mesh's triangles is not a solid; empty when it is one.
 std::string why_hull(const Mesh& mesh) {
   const Topology surface = topology(mesh);
   if (!surface.is_closed()) return "the mesh is open";

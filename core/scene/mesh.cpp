@@ -17,8 +17,9 @@ double distance(Point a, Point b) {
 }
 
 // The covering radius of a triangle by its three vertices, from its side lengths. Acute or right: the circumcenter is
-// in the triangle and is the farthest point. Obtuse, with c the longest side: the farthest point is where a bisector of
-// a shorter side meets c, at distance a^2 c / (a^2 + c^2 - b^2) from the nearer ends (the larger of the two).
+// in the triangle and is the farthest point. Obtuse, with c the longest side: the farthest point is where the
+// perpendicular bisector of a shorter side meets c. For side a, its distance from the ends of a is
+// a^2 c / (a^2 + c^2 - b^2); of the distances for a and b, the larger one counts.
 double triangle_covering_radius(double a, double b, double c) {
   if (a > c) std::swap(a, c);
   if (b > c) std::swap(b, c);

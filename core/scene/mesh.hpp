@@ -14,8 +14,8 @@ namespace broadside::core {
 using Triangle = std::array<std::uint32_t, 3>;
 
 struct Mesh {
-  std::string name;    // "bunny"
-  std::string source;  // where the vertices came from, for provenance: a file name and its sha256, or "procedural"
+  std::string name;          // "bunny"
+  std::string source;        // origin of the vertices, for provenance: a file name and its sha256, or "procedural"
   bool is_stand_in = false;  // true when this is not the mesh that was asked for; every report says so
   std::vector<Vec3> vertices;
   std::vector<Triangle> triangles;

@@ -1,4 +1,4 @@
-// A cell of the scene octree as a trace records it: P-Alg 1's arrays, METHOD section 2.
+// A cell of the scene octree as it is recorded in a trace: P-Alg 1's arrays, METHOD section 2.
 #pragma once
 
 #include <cstdint>
@@ -7,7 +7,7 @@
 
 namespace broadside::core {
 
-// No parent, no child.
+// Stands for no parent or no child.
 constexpr std::uint32_t kNoNode = 0xFFFFFFFFU;
 
 // Nodes are numbered level by level, siblings next to each other; 0 is the root.

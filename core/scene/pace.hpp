@@ -1,4 +1,5 @@
-// How fast a step begins: in how many parts it is taken, and how far it is solved, follow from it (SoftSettings).
+// How fast the bodies are at the beginning of a step. It determines in how many parts the step is taken and how
+// accurately it is solved (SoftSettings).
 #pragma once
 
 #include <algorithm>
@@ -14,10 +15,10 @@
 
 namespace broadside::core {
 
-// Of all bodies that move. Infinite where a number is not finite.
+// The largest values over all bodies that move; infinite where a number is not finite.
 struct Pace {
-  float fastest_m_s = 0.0F;  // a point of a body
-  float stride = 0.0F;       // the largest of all bodies
+  float fastest_m_s = 0.0F;  // of any point of a body
+  float stride = 0.0F;       // the largest stride of a body
 };
 
 // states: by body. dt_s: of the step.
@@ -40,8 +41,8 @@ inline float calm_speed_m_s(Vec3 gravity_m_s2, float dt_s) {
   return 2.0F * dt_s * length(gravity_m_s2);
 }
 
-// Whether no point of a body moves faster than gravity makes it in two steps. What is fast need not be near bodies that
-// ask for this: who is struck strikes others within the same step.
+// Whether no point of a body is faster than gravity makes it in two steps. A fast body matters even when it is far from
+// the bodies for which this is asked, because within one step a body that it strikes may strike others.
 inline bool is_calm(const Pace& pace, Vec3 gravity_m_s2, float dt_s) {
   return pace.fastest_m_s <= calm_speed_m_s(gravity_m_s2, dt_s);
 }

@@ -12,10 +12,10 @@
 namespace broadside::core {
 namespace {
 
-// A vertex coordinate is one float rounding of its formula, and a distance takes a few of them: 8 of 2^-24.
+// A vertex coordinate is its formula rounded to float once, and a distance has a few such roundings: 8 of 2^-24.
 constexpr double kOnSurface = 8.0 * 0x1p-24;
-// Facets of a drawing lie inside the true surface. At 5 % a sphere needs some 80 of them; an icosahedron (20 %) is one
-// in its own right.
+// The facets of a mesh lie inside the true surface. With a limit of 5 %, a sphere needs some 80 of them; an icosahedron
+// (20 %) counts as a polyhedron of its own.
 constexpr double kMostGap = 0.05;
 
 using exact::Point;
@@ -25,7 +25,7 @@ double along(Point p, int axis) {
   return axis == 0 ? p.x : (axis == 1 ? p.y : p.z);
 }
 
-// Every edge belongs to two triangles, once in each direction.
+// Whether every edge belongs to two triangles, once in each direction.
 bool is_closed(const Mesh& mesh) {
   std::vector<std::pair<std::uint32_t, std::uint32_t>> edges;
   edges.reserve(3 * mesh.triangles.size());
@@ -57,7 +57,7 @@ bool is_box(const Mesh& mesh, const Box& b) {
     if (on_faces == 3) has_corner[corner] = true;
   }
   if (!std::all_of(has_corner.begin(), has_corner.end(), [](bool has) { return has; })) return false;
-  // Triangles that cover the faces and nothing else: their area is the box's, and each lies in a face.
+  // Requires triangles that cover the faces and nothing else: their area is the box's, and each lies in a face.
   double area = 0.0;
   for (const Triangle& t : mesh.triangles) {
     const Point p = to_point(mesh.vertices[t[0]]);
@@ -74,14 +74,14 @@ double distance_to_axis_segment(Point p, int axis, double half_length) {
   return length(d);
 }
 
-// A ball swept along a segment on an axis; a sphere when the segment has no length. Returns the gap, or nothing when
-// the mesh is no such shape.
+// A ball swept along a segment on an axis; a sphere when the segment has no length. Returns the facet gap, or nothing
+// when the mesh is not such a shape.
 std::optional<double> swept_ball_gap(const Mesh& mesh, int axis, double half_length, double radius) {
   const double size = radius + half_length;
   for (const Vec3 v : mesh.vertices)
     if (std::abs(distance_to_axis_segment(to_point(v), axis, half_length) - radius) > kOnSurface * size)
       return std::nullopt;
-  // The surface bulges out between vertices, most in the middle of a facet or of an edge.
+  // The true surface bulges out between vertices, most in the middle of a facet or of an edge.
   double least = radius;
   for (const Triangle& t : mesh.triangles) {
     const Point a = to_point(mesh.vertices[t[0]]);
@@ -94,10 +94,10 @@ std::optional<double> swept_ball_gap(const Mesh& mesh, int axis, double half_len
   return gap <= kMostGap * radius ? std::optional(gap) : std::nullopt;
 }
 
-// A cylinder about an axis: every triangle lies in one of its two ends or has its corners on its side. Returns the
-// primitive, or nothing when the mesh is no such shape.
+// Recognizes a cylinder about an axis: every triangle lies in one of its two ends or has its corners on its side.
+// Returns the primitive, or nothing when the mesh is not such a shape.
 std::optional<Primitive> cylinder(const Mesh& mesh, int axis, Vec3 half) {
-  // Beside a segment without end.
+  // The distance from an axis segment that is practically infinite.
   const auto from_axis = [axis](Point p) { return distance_to_axis_segment(p, axis, 1e30); };
   const double length_m = half[axis];
   double radius = 0.0;

@@ -1,4 +1,4 @@
-// For engines that know no springs: a scene that has some would be simulated wrongly.
+// Refuses scenes with springs, for engines that have no springs and would give wrong results.
 #pragma once
 
 #include "core/result.hpp"

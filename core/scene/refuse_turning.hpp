@@ -1,4 +1,4 @@
-// For engines whose bodies translate only: a scene whose bodies turn would be simulated wrongly.
+// Refuses scenes whose bodies turn, for engines whose bodies only translate and that would give wrong results.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// For engines that apply no wrenches: a scene that has some would be simulated wrongly.
+// Refuses scenes with wrenches, for engines that apply no wrenches and would give wrong results.
 #pragma once
 
 #include "core/result.hpp"

@@ -22,7 +22,7 @@ Triple times(const Inertia& m, const Triple& v) {
           m[4] * v[0] + m[5] * v[1] + m[2] * v[2]};
 }
 
-// Of a positive definite matrix, by cofactors, in double.
+// The inverse of a positive definite matrix, by cofactors, in double.
 Inertia inverse(const Inertia& m) {
   const double a = m[1] * m[2] - m[5] * m[5];
   const double b = m[4] * m[5] - m[3] * m[2];
@@ -36,7 +36,7 @@ Inertia inverse(const Inertia& m) {
           (m[3] * m[4] - m[0] * m[5]) / determinant};
 }
 
-// By the unit quaternion, in double; sign -1 turns back.
+// v rotated by the unit quaternion, in double; sign -1 applies the inverse rotation.
 Triple turned(Quat q, double sign, const Triple& v) {
   const double size = std::sqrt(double(q.w) * q.w + double(q.x) * q.x + double(q.y) * q.y + double(q.z) * q.z);
   const double w = q.w / size;
@@ -81,7 +81,7 @@ bool has_vertices(const ContactShape& shape) {
   return shape.kind == ContactKind::kHull || shape.kind == ContactKind::kMesh;
 }
 
-// Of the shape, about the center of mass.
+// The box of the shape, about the center of mass.
 Box box_of(const ContactShape& shape, const VertexTreeView& vertices) {
   Box box;
   for (int k = 0; k < 3; ++k) {
@@ -102,7 +102,8 @@ float inner_ball_of_hull_m(const HullView& hull, Vec3 center) {
   return std::max(0.0F, std::nextafterf(static_cast<float>(inner), 0.0F));
 }
 
-// A ball about the center of mass inside the shape, where its closed form or its faces tell one; else none.
+// The radius of a ball about the center of mass that lies inside the shape, where a closed form or the faces give one;
+// otherwise 0.
 float inner_ball_m(const ContactShape& s) {
   if (s.kind == ContactKind::kHull) return inner_ball_of_hull_m(s.hull, s.center);
   const float off = length(s.center);
@@ -126,7 +127,7 @@ RigidShape shape_of(const ContactShape& contact, const Mesh& mesh) {
   RigidShape shape;
   shape.contact = contact;
   if (has_vertices(contact)) shape.octree = build_body_octree(mesh.vertices);
-  // A convex body's exact test costs no more than tests of its parts.
+  // For a convex body, the exact test costs no more than tests of its parts.
   shape.nodes = contact.kind == ContactKind::kMesh ? surface_node_boxes(mesh, Vec3{} - contact.center)
                                                    : single_node_boxes(box_of(contact, shape.vertices()));
   shape.balls.outer_m = length(contact.center) + contact.size_m;

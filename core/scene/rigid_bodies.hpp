@@ -1,5 +1,5 @@
-// The working set of bodies that turn, as it is loaded, and on the CPU as it runs: one entry per body, and what is
-// shared by bodies of one shape.
+// The working data of bodies that turn, as it is loaded and, on the CPU, as it runs: one entry per body, and what
+// bodies of one shape share.
 #pragma once
 
 #include <algorithm>
@@ -24,14 +24,14 @@
 
 namespace broadside::core {
 
-// Of a mesh and a center of mass in it.
+// The shape of a mesh with a given center of mass.
 struct RigidShape {
   ContactShape contact;  // its views point into RigidBodies::contact_shapes
   NodeBoxes nodes;       // from the center of mass, body axes
   BodyOctree octree;     // of the vertices of a hull or mesh, mesh coordinates; else none
   ShapeBalls balls;
-  // Of the ball inside. Of a mesh that is not convex, whose inside nobody knows, a quarter of half of its box's
-  // shortest side, which is less than most ears and legs.
+  // The radius of the ball inside. Where no such ball is known, as for a mesh that is not convex, it is a quarter of
+  // half of its box's shortest side, which is less than most ears and legs.
   float half_thickness_m = 0.0F;
 
   [[nodiscard]] VertexTreeView vertices() const {
@@ -46,16 +46,16 @@ struct RigidBodies {
   std::vector<Material> material;
   std::vector<RigidWrench> wrench;  // by body, or none in a scene without wrenches
   std::vector<std::uint8_t> is_static;
-  std::vector<Vec3> static_spin;  // rad/s: what the scene says of static bodies, which never turn
+  std::vector<Vec3> static_spin;  // rad/s: the scene's angular velocity of static bodies, which never turn
   std::vector<std::uint32_t> shape;
   std::vector<RigidShape> shapes;
   ContactShapes contact_shapes;
-  std::vector<std::uint8_t> is_swept;  // by body: 1 = its way is followed; or none: nobody's is (swept_bodies.hpp)
-  std::vector<PushWord> push;          // what the candidates of a step tell the next one
-  std::vector<PushWord> passed_on;     // and what of that confirmed pairs pass on
-  // Of detection: the pose, where it leads to if nothing is touched, by its velocity alone, and where others may drive
-  // the body; how far it can come and how far it falls, the box of the shape, and a box that contains all of where it
-  // goes.
+  std::vector<std::uint8_t> is_swept;  // by body: 1 = its path is swept; empty: no path is (swept_bodies.hpp)
+  std::vector<PushWord> push;          // the pushes that a step's candidate pairs pass to the next step
+  std::vector<PushWord> passed_on;     // and the pushes that confirmed pairs pass on
+  // At detection: the pose; where its velocity alone would take it if it touched nothing; where other bodies may push
+  // it; how far it can come and how far it falls; the box of the shape; and a box that contains its whole possible
+  // path.
   std::vector<RigidState> detected;
   std::vector<ContactPose> free_end;
   std::vector<Vec3> drift;
@@ -74,14 +74,14 @@ struct RigidBodies {
   [[nodiscard]] RigidWrench wrench_of(std::uint32_t body) const {
     return wrench.empty() ? RigidWrench{} : wrench[body];
   }
-  // Half of the least one.
+  // Half of the body's thickness (RigidShape).
   [[nodiscard]] float thickness_m(std::uint32_t body) const { return shapes[shape[body]].half_thickness_m; }
-  // The same of the thinner of both.
+  // The same for the thinner of the two bodies.
   [[nodiscard]] float thinner_m(Pair pair) const { return std::min(thickness_m(pair.i), thickness_m(pair.j)); }
   [[nodiscard]] bool is_followed(std::uint32_t body) const { return !is_swept.empty() && is_swept[body] != 0; }
-  // Whether two bodies are kept from passing through each other.
+  // Whether the two bodies are kept from passing through each other.
   [[nodiscard]] bool are_followed(Pair pair) const { return is_followed(pair.i) || is_followed(pair.j); }
-  // As another body may feel it.
+  // The body as a possible pusher of another body.
   [[nodiscard]] Pusher pusher(std::uint32_t body) const {
     return {detected[body].x, drift[body], pushed[body], swing_m[body], mass[body].inverse_mass, body, pushed_by[body]};
   }
@@ -90,7 +90,7 @@ struct RigidBodies {
   }
 };
 
-// Refuses a mesh that has no inertia or is no shape of a body.
+// Error: a mesh that has no inertia or cannot be the shape of a body.
 Result<RigidBodies> make_rigid_bodies(const Scene& scene);
 
 }  // namespace broadside::core

@@ -138,7 +138,7 @@ Status check_motion(const Scene& scene) {
     if (const Status s = check_mass_properties(scene.mass_properties[i]); !s)
       return bad(scene, "body " + std::to_string(i), s.error().what, s.error().advice);
   }
-  // Bodies of one mesh and mass have one inertia, so each mesh is tried once.
+  // Bodies with one mesh and mass have one inertia, so each mesh is tried once.
   if (scene.motion == Motion::kTranslate || !scene.mass_properties.empty()) return Done{};
   std::vector<std::uint8_t> is_tried(scene.meshes.size());
   for (std::uint32_t i = 0; i < scene.body_count(); ++i) {
@@ -259,17 +259,17 @@ std::uint64_t scene_digest(const Scene& scene) {
   }
   hash.add(scene.domain), hash.add(scene.face_material), hash.add(scene.gravity_m_s2), hash.add(scene.dt_s);
   hash.add(scene.frames), hash.add(scene.seed), hash.add(scene.parameters);
-  // Only where there are some: the digests of scenes without springs are older than springs.
+  // Added only where there are springs: the digests of scenes without springs are older than springs.
   for (const Spring& s : scene.springs) hash.add(s);
-  // Likewise: scenes whose bodies translate have the digests that they had before bodies could turn.
+  // Likewise, scenes whose bodies translate keep the digests that they had before bodies could turn.
   if (scene.motion != Motion::kTranslate || !scene.mass_properties.empty()) {
     hash.add(scene.motion);
     for (const MassProperties& p : scene.mass_properties) hash.add(p.center_of_mass_m), hash.add(p.inertia_kg_m2);
   }
-  // And scenes without wrenches. The word in front tells their bytes from those of springs.
+  // The same holds for scenes without wrenches. The word in front distinguishes their bytes from those of springs.
   if (!scene.wrenches.empty()) hash.add(std::array<char, 8>{'w', 'r', 'e', 'n', 'c', 'h', 'e', 's'});
   for (const Wrench& w : scene.wrenches) hash.add(w);
-  // And scenes that flag nobody.
+  // The same holds for scenes in which no body is flagged as fast.
   if (std::find(scene.is_fast.begin(), scene.is_fast.end(), 1) != scene.is_fast.end()) {
     hash.add(std::array<char, 8>{'f', 'a', 's', 't', 'b', 'o', 'd', 'y'});
     for (const std::uint8_t is_fast : scene.is_fast) hash.add(is_fast);

@@ -1,4 +1,4 @@
-// The immutable description of a simulation that every engine is given: DESIGN's "scene".
+// The immutable description of a simulation that every engine is given.
 #pragma once
 
 #include <cstdint>
@@ -23,9 +23,9 @@ namespace broadside::core {
 struct Body {
   std::uint32_t mesh = 0;     // index into Scene::meshes
   Vec3 position;              // of the mesh's origin, m
-  Quat orientation;           // world from body; constant during a run where the scene's bodies translate only
+  Quat orientation;           // world from body; constant during a run where bodies only translate
   Vec3 velocity;              // m/s
-  Vec3 angular_velocity;      // rad/s; must be zero for the pipeline's engines
+  Vec3 angular_velocity;      // rad/s; engines whose bodies only translate require zero
   float inverse_mass = 1.0F;  // 1/kg; 0 = static
   Material material;
 };
@@ -50,27 +50,28 @@ struct Scene {
   std::uint64_t seed = 0;
   Parameters parameters;
   Motion motion = Motion::kTranslate;
-  // One per body where the scene gives them; otherwise none, and mass_properties_of derives them.
+  // One per body where the scene gives them; otherwise empty, and mass_properties_of derives them.
   std::vector<MassProperties> mass_properties;
-  // One per body where the scene says of some that they are fast: 1 = an engine that can is to see that it passes
-  // through nothing within a step. Otherwise none.
+  // One per body where the scene marks some as fast: 1 = an engine that can do so keeps the body from passing through
+  // anything within a step. Otherwise empty.
   std::vector<std::uint8_t> is_fast;
-  // The name of the formula that says how this scene ends (validation/closed_form); empty = none is known.
+  // The name of the formula for the scene's outcome (validation/mechanics/answers/); empty = none is known.
   std::string answer;
 
   [[nodiscard]] std::uint32_t body_count() const { return static_cast<std::uint32_t>(bodies.size()); }
 };
 
-// Everything that an engine may rely on: finite numbers, masses and parameters in range, unit quaternions, indices that
-// exist, meshes with triangles, a domain with volume. The first violation is named with its body and field.
+// Checks all that an engine may rely on: finite numbers, masses and parameters in range, unit quaternions, indices that
+// exist, meshes with triangles, a domain with volume. The error names the first violation with its body and field.
 Status check_scene(const Scene& scene);
 
-// What the scene gives, or a body of uniform density. The error of a mesh without inertia names the body.
+// The mass properties that the scene gives, or those of a body of uniform density. The error for a mesh without inertia
+// names the body.
 Result<MassProperties> mass_properties_of(const Scene& scene, std::uint32_t body);
-// Of all bodies, each mesh looked at once: zero for static ones.
+// The same for all bodies, with each mesh evaluated once; zero for static bodies.
 Result<std::vector<MassProperties>> all_mass_properties(const Scene& scene);
-// One line for each mesh of a moving body whose inertia is its convex hull's, with the reason. Empty where the scene
-// gives mass properties and where bodies translate.
+// One line with the reason for each mesh of a moving body whose inertia is that of its convex hull. Empty where the
+// scene gives mass properties and where bodies translate.
 std::vector<std::string> hull_notes(const Scene& scene);
 
 // XXH64 over the canonical little-endian bytes of everything but name, description and mesh provenance.

@@ -1,5 +1,5 @@
-// What the pipeline precomputes once per distinct (mesh, orientation): bodies translate only, so a turned mesh is one
-// more shape and a frame never rotates a vertex.
+// What the pipeline precomputes once per distinct (mesh, orientation). Bodies only translate, so a rotated mesh is one
+// more shape, and no frame rotates a vertex.
 #pragma once
 
 #include <cstdint>

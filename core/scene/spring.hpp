@@ -7,10 +7,10 @@
 
 namespace broadside::core {
 
-// Acts with the force -stiffness (x - anchor) - damping v. A body may have several: their stiffnesses and dampings add.
+// Exerts the force -stiffness (x - anchor) - damping v. A body may have several springs: their forces add.
 struct Spring {
   std::uint32_t body = 0;
-  Vec3 anchor;                 // where it pulls to, m
+  Vec3 anchor;                 // the point to which it pulls, m
   float stiffness_n_m = 0.0F;  // k >= 0
   float damping_n_s_m = 0.0F;  // c >= 0
 

@@ -10,8 +10,8 @@
 
 namespace broadside::core {
 
-// In the scene's order for each body: those of body i are springs[begin[i] .. begin[i + 1]). Both are empty when the
-// scene has none.
+// Springs grouped by body, in the scene's order: those of body i are springs[begin[i] .. begin[i + 1]). Both are empty
+// when the scene has none.
 struct SpringsOfBodies {
   std::vector<Spring> springs;
   std::vector<std::uint32_t> begin;
@@ -20,7 +20,7 @@ struct SpringsOfBodies {
 SpringsOfBodies springs_of_bodies(const Scene& scene);
 
 // A step at or above the limit of P(4) would diverge: the error names the body and its limit. printed-E1 uses P(4) as
-// printed and lets more through.
+// printed and so accepts longer steps.
 Status check_spring_step(const Scene& scene, Variant variant);
 
 }  // namespace broadside::core

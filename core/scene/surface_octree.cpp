@@ -17,7 +17,7 @@ Box common(const Box& a, const Box& b) {
   return box;
 }
 
-// The half of a cell that octant k is: bit 0 for x, 1 for y, 2 for z. Neighbors share the plane between them.
+// Octant k of a cell: bit 0 for x, 1 for y, 2 for z. Neighboring octants share the plane between them.
 Box octant_of(const Box& cell, int k) {
   Box octant = cell;
   const Vec3 middle = center(cell);
@@ -25,7 +25,7 @@ Box octant_of(const Box& cell, int k) {
   return octant;
 }
 
-// Whether the plane of a triangle goes through the box, in double; rounding only adds boxes.
+// Whether the plane of a triangle intersects the box, in double; rounding can only add boxes.
 bool meets_plane(const Box& box, Vec3 p, Vec3 q, Vec3 r) {
   const double a[3] = {double(q.x) - p.x, double(q.y) - p.y, double(q.z) - p.z};
   const double b[3] = {double(r.x) - p.x, double(r.y) - p.y, double(r.z) - p.z};

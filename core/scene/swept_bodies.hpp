@@ -1,4 +1,5 @@
-// Whose ways an engine follows, so that they pass through nothing within a step (core/method/rigid/sweep.hpp).
+// Which bodies an engine sweeps along their paths, so that they pass through nothing within a step
+// (core/method/rigid/sweep.hpp).
 #pragma once
 
 #include <algorithm>
@@ -12,13 +13,13 @@ namespace broadside::core {
 
 enum class Swept : std::uint8_t { kNobody, kFlagged, kAll };
 
-// Of the setting "sweep".
+// The value of the setting "sweep".
 inline Swept swept_named(std::string_view word) {
   if (word == "fast") return Swept::kAll;
   return word == "off" ? Swept::kNobody : Swept::kFlagged;
 }
 
-// One per body, 1 = it is followed, with all that it meets; none where nobody is.
+// One entry per body, 1 = it is swept, against every body that it may meet; empty where no body is.
 inline std::vector<std::uint8_t> swept_bodies(const Scene& scene, Swept swept) {
   if (swept == Swept::kAll) return std::vector<std::uint8_t>(scene.bodies.size(), 1);
   if (swept == Swept::kNobody) return {};

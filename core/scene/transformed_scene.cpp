@@ -54,7 +54,7 @@ Scene mirrored_scene(const Scene& scene, int axis) {
   });
   for (Body& b : out.bodies) {
     mirror(b.position), mirror(b.velocity);
-    // Turning axes are axial: they keep the mirrored component and flip the other two.
+    // Rotation axes are axial vectors: they keep the mirrored component and flip the other two.
     for (int k = 0; k < 3; ++k)
       if (k != axis) b.angular_velocity[k] = -b.angular_velocity[k];
     if (axis != 0) b.orientation.x = -b.orientation.x;
@@ -70,7 +70,7 @@ Scene mirrored_scene(const Scene& scene, int axis) {
   mirror(out.gravity_m_s2);
   for (MassProperties& m : out.mass_properties) {
     m.center_of_mass_m[static_cast<std::size_t>(axis)] *= -1.0;
-    // Of xy, xz and yz, the two that have the mirrored axis change their sign.
+    // Of xy, xz and yz, the two that involve the mirrored axis change their sign.
     for (int k = 0; k < 3; ++k)
       if (k != 2 - axis) m.inertia_kg_m2[std::size_t{3} + static_cast<std::size_t>(k)] *= -1.0;
   }

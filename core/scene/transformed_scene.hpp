@@ -1,4 +1,4 @@
-// Scenes derived from another one so that their outcomes follow from its outcomes.
+// Scenes derived from another scene, such that their outcomes follow from its outcomes.
 #pragma once
 
 #include <cstdint>
@@ -8,25 +8,26 @@
 
 namespace broadside::core {
 
-// Every length times `factor`, and with it velocities, gravity, the parameters that are lengths, speeds or impulses;
-// masses, times and materials stay. With a power of two, whatever float32 arithmetic makes of it is the original's
-// times that factor, bit for bit, while nothing overflows or becomes subnormal.
+// Multiplies every length by `factor`, and with it velocities, gravity, and the parameters that are lengths, speeds or
+// impulses; masses, times and materials stay. With a power of two, every float32 result is the original's times that
+// factor, bit for bit, as long as nothing overflows or becomes subnormal.
 Scene scaled_scene(const Scene& scene, float factor);
 
-// x -> -x for axis 0, and so on: positions, velocities, meshes (with triangles turned, so that they still face
-// outward), orientations, domain, gravity. Rounding is symmetric, so an outcome is the original's mirrored, bit for
+// x -> -x for axis 0, and so on: positions, velocities, meshes (with triangles reversed, so that they still face
+// outward), orientations, domain, gravity. Rounding is symmetric, so the outcome is the original's mirrored, bit for
 // bit.
 Scene mirrored_scene(const Scene& scene, int axis);
 
-// Turned by 90 degrees about an axis, counterclockwise seen from its tip: y becomes z for axis 0, and so on. Bodies and
-// meshes turn, so that orientations keep their components; coordinates change places and signs, and nothing is rounded.
+// Rotated by 90 degrees about an axis, counterclockwise seen from its tip: y becomes z for axis 0, and so on. Bodies
+// and meshes rotate, so that orientations keep their components; coordinates change places and signs, and nothing is
+// rounded.
 Scene turned_scene(const Scene& scene, int axis);
 
 // Body k of the result is body order[k] of the scene. order: a permutation.
 Scene renumbered_scene(const Scene& scene, std::span<const std::uint32_t> order);
 
-// Every mesh scaled about its body's origin, and nothing else: with factor >= 1, boxes around that origin contain the
-// original's, and so their pairs contain the original's pairs.
+// Scales every mesh about its body's origin, and changes nothing else. With factor >= 1, boxes around that origin
+// contain the original's, and so the pairs include the original's pairs.
 Scene grown_scene(const Scene& scene, float factor);
 
 }  // namespace broadside::core

@@ -74,7 +74,7 @@ class Tree {
     split(first + 1, half, end);
   }
 
-  // An edge is convex where the corner beyond it is behind the triangle's plane.
+  // An edge is convex where the neighboring triangle's third corner is behind this triangle's plane.
   void look_beyond() {
     std::map<std::pair<std::uint32_t, std::uint32_t>, std::size_t> beside;
     for (std::size_t t = 0; t < order_.size(); ++t)
@@ -84,7 +84,7 @@ class Tree {
       for (std::size_t k = 0; k < 3; ++k) {
         const auto found = beside.find({order_[t][(k + 1) % 3], order_[t][k]});
         if (found == beside.end()) {
-          least = 0.0F;  // a rim is convex to all sides
+          least = 0.0F;  // a boundary edge is convex to all sides
           continue;
         }
         for (const std::uint32_t v : order_[found->second]) {
@@ -96,13 +96,13 @@ class Tree {
     }
   }
 
-  // Sets the cones of the node and of all below it; returns its first triangle and the one behind its last.
+  // Sets the cones of the node and its descendants; returns the index of its first triangle and one past its last.
   std::pair<std::size_t, std::size_t> cone_below(std::size_t at) {
     TriangleNode& node = out_.nodes[at];
     const std::size_t first = node.first;
     const auto [begin, end] = node.count > 0 ? std::pair{first, first + node.count}
                                              : std::pair{cone_below(first).first, cone_below(first + 1).second};
-    // Covers what roundings of normals, of this and of the test do.
+    // Covers rounding of the normals, of this computation and of the test.
     constexpr double kSlack = 1e-5;
     Point sum;
     for (std::size_t t = begin; t < end; ++t) sum = sum + exact::to_point(out_.normals[t]);

@@ -1,4 +1,4 @@
-// The tree over a mesh's triangles by which contacts find those that are near.
+// The tree over a mesh's triangles that contacts use to find nearby triangles.
 #pragma once
 
 #include <cstdint>

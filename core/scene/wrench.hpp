@@ -1,4 +1,4 @@
-// A constant force and torque on one body: what scenes with a closed form push their bodies with.
+// A constant force and torque on one body, for scenes whose outcome has a closed form.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,8 @@ namespace broadside::core {
 // In which axes a wrench is constant.
 enum class WrenchAxes : std::uint32_t { kWorld = 0, kBody = 1 };
 
-// Acts in every step, beside gravity. The force acts at the body's center of mass. A body may have several: they add.
+// Acts in every step, besides gravity. The force acts at the body's center of mass. A body may have several wrenches:
+// they add.
 struct Wrench {
   std::uint32_t body = 0;
   WrenchAxes axes = WrenchAxes::kWorld;

@@ -19,7 +19,7 @@ namespace {
 constexpr const char* kBoxes = "/boxes";
 static_assert(sizeof(Box) == 6 * sizeof(float));
 
-// [frames, n, 6] in chunks of one frame or less; compressed as every array of a trace is.
+// [frames, n, 6] in chunks of at most one frame; compressed like every array of a trace.
 Handle create_boxes(hid_t file, std::uint64_t frames, std::uint64_t count) {
   const std::array<hsize_t, 3> dims{frames, count, 6};
   const Handle properties(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
@@ -76,7 +76,7 @@ Status write_frames(PartFile& part, std::uint64_t frames, const NextBoxes& next)
 }  // namespace
 
 struct BoxFile::Impl {
-  // Exactly one of the two is open.
+  // Exactly one of the next two is open.
   std::optional<Hdf5Source> source;
   std::optional<TraceReader> trace;
   OpenArray boxes;

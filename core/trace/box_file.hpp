@@ -1,4 +1,4 @@
-// Boxes frame by frame in an HDF5 file: DESIGN's box stream. Schema: core/trace/SCHEMA.md.
+// Boxes frame by frame in an HDF5 file: a box stream. Schema: core/trace/SCHEMA.md.
 #pragma once
 
 #include <cstdint>
@@ -15,8 +15,9 @@ namespace broadside::core {
 // Not thread-safe. Checks shapes and types, not the boxes themselves.
 class BoxFile {
  public:
-  // A file with the dataset /boxes, [frames, n, 6] or [n, 6] f32; otherwise a trace, whose detection boxes are read.
-  // Errors: missing, no HDF5, neither of the two, another shape or type, no frame.
+  // Opens a file with the dataset /boxes, [frames, n, 6] or [n, 6] f32; otherwise a trace, whose detection boxes are
+  // read. Errors: a file that is missing, is not HDF5, is neither of the two, has another shape or type, or has no
+  // frame.
   static Result<BoxFile> open(const std::filesystem::path& path);
 
   BoxFile(BoxFile&&) noexcept;
@@ -33,11 +34,11 @@ class BoxFile {
   std::unique_ptr<Impl> impl_;
 };
 
-// Gives the boxes of the next frame; the same number for every frame.
+// Gives the boxes of the next frame; every frame has the same number of boxes.
 using NextBoxes = std::function<Result<std::vector<Box>>()>;
 
-// Writes `frames` frames as /boxes [frames, n, 6]; `next` is called once per frame, in order. The file appears whole
-// under its name or not at all. Errors: those of `next`; it cannot be written (folder, permission, space).
+// Writes `frames` frames as /boxes [frames, n, 6]; `next` is called once per frame, in order. The file appears complete
+// under its name or not at all. Errors: those of `next`; the file cannot be written (folder, permission, space).
 Status write_box_file(const std::filesystem::path& path, std::uint64_t frames, const NextBoxes& next);
 
 }  // namespace broadside::core

@@ -21,12 +21,12 @@ constexpr std::uint16_t kContinuation = 0x10;
 constexpr std::uint16_t kSymbolTable = 0x11;
 constexpr std::uint16_t kAttribute = 0x0C;
 constexpr std::size_t kMessageHead = 8;
-// A group of a trace has tens of objects, and a header of ours some KiB.
+// A group of a trace has tens of objects, and one of our object headers some KiB.
 constexpr std::size_t kMostObjects = 100000;
 constexpr std::uint64_t kLongestChunk = 16U << 20U;
 
-// Bytes of a type's message: 8 and the properties of its class (fixed point, floating point, time, string, bit field,
-// opaque, compound, reference). 0: not known here.
+// Bytes of a type's message, by class (fixed point, floating point, time, string, bit field, opaque, compound,
+// reference): 8 and the properties of the class. 0: not known here.
 constexpr std::array<std::uint64_t, 8> kTypeBytes{12, 20, 10, 8, 12, 8, 0, 8};
 
 class Bytes {
@@ -34,7 +34,7 @@ class Bytes {
   explicit Bytes(std::string bytes) : bytes_(std::move(bytes)) {}
   [[nodiscard]] std::size_t size() const { return bytes_.size(); }
   [[nodiscard]] bool starts_with(std::string_view text) const { return std::string_view(bytes_).starts_with(text); }
-  // Little-endian number of `count` bytes; 0 past the end, so callers ask size() first.
+  // A little-endian number of `count` bytes; 0 past the end, so callers check size() first.
   [[nodiscard]] std::uint64_t number(std::size_t at, std::size_t count) const {
     std::uint64_t value = 0;
     if (at + count > bytes_.size()) return 0;
@@ -59,7 +59,7 @@ class Walk {
   Status run() {
     const Bytes head = read(0, 96);
     const std::uint64_t version = head.number(8, 1);
-    // HDF5 writes no other size of addresses on machines of today.
+    // On current machines HDF5 writes addresses of no other size.
     if (head.size() < 96 || !head.starts_with(kSignature) || version > 1 || head.number(13, 2) != 0x0808) return Done{};
     to_do_.push_back(head.number(version == 0 ? 64 : 68, 8));
     while (!to_do_.empty()) {
@@ -72,7 +72,7 @@ class Walk {
   }
 
  private:
-  // Fewer bytes at the file's end; none where the file cannot be read, which HDF5 reports later.
+  // Reads fewer bytes at the file's end, and none where the file cannot be read, which HDF5 reports later.
   [[nodiscard]] Bytes read(std::uint64_t at, std::size_t count) const {
     std::string bytes(count, '\0');
     if (file_ < 0 || at > static_cast<std::uint64_t>(INT64_MAX)) return Bytes("");
@@ -111,7 +111,7 @@ class Walk {
     return Done{};
   }
 
-  // The objects of a group: a tree of symbol table nodes.
+  // Visits the objects of a group: a tree of symbol table nodes.
   void visit_tree(std::uint64_t root) {
     std::vector<std::uint64_t> nodes{root};
     while (!nodes.empty()) {
@@ -135,7 +135,7 @@ class Walk {
   static bool fits(const Bytes& message) {
     const std::uint64_t version = message.number(0, 1);
     if (message.size() < 8 || version < 1 || version > 3) return false;
-    // A type or shape that is stored elsewhere has no place in a trace.
+    // A trace never has a type or shape that is stored elsewhere.
     if (version > 1 && (message.number(1, 1) & 3U) != 0) return false;
     const auto padded = [version](std::uint64_t n) { return version == 1 ? (n + 7) / 8 * 8 : n; };
     const std::uint64_t type_bytes = message.number(4, 2);

@@ -20,7 +20,7 @@ ColumnBuffer::ColumnBuffer(const Column& column, std::uint64_t bodies, Handle se
   const Handle properties(H5Dget_create_plist(set_.get()), H5Pclose);
   chunk_.assign(inner_.size() + 1, 1);
   if (properties) H5Pget_chunk(properties.get(), static_cast<int>(chunk_.size()), chunk_.data());
-  if (column.layout == Layout::kOffsets) {  // offsets start with 0
+  if (column.layout == Layout::kOffsets) {  // the first offset is 0
     waiting_.resize(sizeof(std::uint64_t));
     rows_waiting_ = 1;
   }
@@ -55,8 +55,8 @@ bool ColumnBuffer::write(Packing packing) {
   for (std::size_t i = 0; i < inner_.size(); ++i) extent[i + 1] = inner_[i];
   if (H5Dset_extent(set_.get(), extent.data()) < 0) return false;
   rows_written_ += count;
-  if (waiting_.empty()) return true;  // a scene without bodies: frames of nothing
-  // Before the first whole chunk, the whole chunks, and after them.
+  if (waiting_.empty()) return true;  // a scene without bodies: its frames have no bytes
+  // Rows before the first whole chunk, the whole chunks, and the rows after them.
   std::uint64_t head = count;
   std::uint64_t whole = 0;
   if (packing == Packing::kFast) {
@@ -77,7 +77,7 @@ bool ColumnBuffer::write(Packing packing) {
   return good;
 }
 
-// Only the second dimension, bodies, is ever longer than its chunk.
+// Only the second dimension, bodies, can be longer than its chunk.
 bool ColumnBuffer::store_chunks(std::uint64_t first, std::uint64_t count, const std::byte* from) {
   constexpr std::uint32_t kSkipAllFilters = 0x3;  // shuffle and gzip
   const std::uint64_t bytes_per_entry = inner_.empty() ? bytes_per_row_ : bytes_per_row_ / inner_[0];

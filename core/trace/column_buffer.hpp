@@ -1,5 +1,5 @@
-// One growing dataset of /trace while it is written: rows wait in memory until they are worth a call to HDF5. Private
-// to core/trace/*.cpp.
+// One growing dataset of /trace while it is written: rows wait in memory until a call to HDF5 is worth its cost.
+// Private to core/trace/*.cpp.
 #pragma once
 
 #include <cstddef>
@@ -25,19 +25,19 @@ class ColumnBuffer {
   [[nodiscard]] const Handle& set() const { return set_; }
   [[nodiscard]] std::size_t waiting_bytes() const { return waiting_.size(); }
 
-  // One frame (or window): the column's part of each record; for offsets, the number of records so far.
+  // Adds one frame (or window): the column's part of each record; for offsets, the number of records so far.
   void add(RecordSpan<const std::byte> records);
-  // Hands the waiting rows to HDF5. False when HDF5 failed; its reason is then on its error stack.
+  // Passes the waiting rows to HDF5. False when HDF5 failed; the reason is then on HDF5's error stack.
   bool write(Packing packing);
 
  private:
-  // Rows first .. first + count - 1 are whole chunks.
+  // Precondition: rows first .. first + count - 1 are whole chunks.
   bool store_chunks(std::uint64_t first, std::uint64_t count, const std::byte* from);
 
   const Column* column_;
   Handle set_;
   std::vector<std::uint64_t> inner_;  // dimensions after the first
-  std::vector<hsize_t> chunk_;        // one more
+  std::vector<hsize_t> chunk_;        // chunk size in each dimension
   std::uint64_t bytes_per_row_;
   std::uint64_t rows_written_ = 0;
   std::uint64_t rows_waiting_ = 0;

@@ -180,7 +180,7 @@ static_assert(sizeof(Vec3) == 12 && sizeof(Quat) == 16 && sizeof(Box) == 24 && s
                   sizeof(WideQuat) == 32 && sizeof(Pair) == 8 && sizeof(bool) == 1,
               "rows are copied as they lie in memory");
 
-// The one place that knows which member an enumerator means. visit gets a vector or a single value.
+// The only place that maps an enumerator to its member. visit gets a vector or a single value.
 template <typename Frame, typename Visit>
 auto visit_records(Frame& f, Records which, Visit visit) {
   switch (which) {

@@ -1,5 +1,5 @@
-// The one table of the datasets under /trace: where each stands in the file and in a FrameRecord. Writer and reader
-// both walk it, and SCHEMA.md is tested against it.
+// The one table of the datasets under /trace: where each is in the file and in a FrameRecord. Both writer and reader
+// follow it, and a test compares SCHEMA.md with it.
 #pragma once
 
 #include <cstddef>
@@ -22,11 +22,11 @@ enum class Layout : std::uint8_t {
   kFrames,       // [F] or [F, width]
   kFrameBodies,  // [F, n, width]
   kRows,         // [R, width]: frame k has the rows offsets[k] .. offsets[k + 1] - 1
-  kOffsets,      // [F + 1], starts with 0, never falls
+  kOffsets,      // [F + 1], starts with 0, never decreases
   kWindows,      // [W]: one row per window of the statistics
 };
 
-// The arrays of a FrameRecord (and the statistics), each a column's source.
+// The arrays of a FrameRecord (and the statistics) from which columns are written.
 enum class Records : std::uint8_t {
   kStep,
   kTime,
@@ -71,23 +71,23 @@ struct Column {
   Records records;
   std::size_t offset;        // of the first element in a record, bytes
   std::string_view unit;     // "1" = a pure number
-  bool is_optional = false;  // a file may lack it, and then its fields keep their defaults
+  bool is_optional = false;  // a file may lack it; its fields then keep their defaults
 };
 
-// In the order in which they are written.
+// In the order in which they are written to the file.
 std::span<const Column> columns();
 
-// The HDF5 object whose being there says that the trace has the Group: the HDF5 group that holds its datasets, or where
-// it has one dataset in another's group, that dataset.
+// The HDF5 object whose presence says that the trace has the Group: the HDF5 group that holds its datasets, or, where
+// the Group is a single dataset in another Group's HDF5 group, that dataset.
 struct GroupRow {
   Group group;
   std::string_view path;
   bool is_dataset = false;
 };
-// Without kWideBodies, which stands in kBodies' place when its datasets are float64.
+// Without kWideBodies, which replaces kBodies when its datasets are float64.
 std::span<const GroupRow> group_rows();
 
-// Separations are one per measured pair and share its offsets; every other array of rows has offsets of its own.
+// There is one separation per measured pair, so these two share offsets; every other array of rows has its own.
 constexpr Records offsets_of(Records r) {
   return r == Records::kSeparations ? Records::kMeasured : r;
 }
@@ -96,7 +96,7 @@ constexpr std::size_t row_bytes(const Column& c) {
   return c.width * size_of(c.element);
 }
 
-// count records of stride bytes each.
+// A view of count records that are stride bytes apart.
 template <typename Byte>
 struct RecordSpan {
   Byte* data;
@@ -104,9 +104,10 @@ struct RecordSpan {
   std::size_t stride;
 };
 
-// Any array but kStatistics.
+// Accepts any array except kStatistics.
 RecordSpan<const std::byte> records_of(const FrameRecord& frame, Records which);
-// The same array, given count records first. Single values (step, time ...) have one record whatever count says.
+// The same array after it was resized to count records. Single values (step, time ...) have one record whatever count
+// is.
 RecordSpan<std::byte> resized_records(FrameRecord& frame, Records which, std::size_t count);
 
 }  // namespace broadside::core

@@ -1,4 +1,4 @@
-// The group /declaration of a trace: one text attribute a declared key. Private to core/trace/*.cpp.
+// The group /declaration of a trace: one text attribute per declared key. Private to core/trace/*.cpp.
 #pragma once
 
 #include "core/engine/declaration.hpp"
@@ -8,7 +8,7 @@
 namespace broadside::core {
 
 void write_declaration(Hdf5Sink& sink, const Declaration& declaration);
-// Without the group nothing is declared. An unknown key or word is noted in source.
+// Without the group nothing is declared. An unknown key or word is reported to source.
 Declaration read_declaration(Hdf5Source& source);
 
 }  // namespace broadside::core

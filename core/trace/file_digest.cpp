@@ -19,7 +19,7 @@ Result<std::uint64_t> file_digest(const std::filesystem::path& file) {
     in.read(piece.data(), static_cast<std::streamsize>(piece.size()));
     XXH64_update(state.get(), piece.data(), static_cast<std::size_t>(in.gcount()));
   } while (in);
-  // A folder opens like a file, and its first read fails.
+  // A folder can be opened like a file, but its first read fails.
   if (!in.eof()) return Error{"reading it failed", file.string(), "check the disk, and that it is a file"};
   return XXH64_digest(state.get());
 }

@@ -1,4 +1,4 @@
-// What a file contains, as one number: whether a trace, or what stands beside it, is still the same.
+// The content of a file as one number, to find out whether a trace, or a file beside it, is unchanged.
 #pragma once
 
 #include <cstdint>
@@ -8,8 +8,8 @@
 
 namespace broadside::core {
 
-// XXH64 over the bytes, read piece by piece, so that a file may be larger than memory. A missing or unreadable file is
-// an error.
+// XXH64 over the bytes, read in pieces, so that a file may be larger than memory. A missing or unreadable file is an
+// error.
 Result<std::uint64_t> file_digest(const std::filesystem::path& file);
 
 }  // namespace broadside::core

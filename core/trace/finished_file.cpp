@@ -12,7 +12,7 @@ namespace broadside::core {
 namespace {
 
 constexpr std::uint64_t kWasteShare = 16;
-// The scene and HDF5's own structures, which are no waste, seldom need more.
+// The scene and HDF5's own structures are not waste, and seldom need more than this.
 constexpr std::uint64_t kStructureBytes = 1U << 20U;
 
 Handle open_hdf5(PartFile& part, unsigned flags) {

@@ -1,5 +1,5 @@
-// What a trace of format 1 says of its engine. That format has no declaration: there, names stood for what engines now
-// declare. The table is closed, so that old traces keep their verdicts.
+// What a trace of format 1 implies about its engine. That format has no declaration: the engine's name implied what
+// engines now declare. The table is final, so that old traces keep their verdicts.
 #pragma once
 
 #include <string_view>

@@ -1,4 +1,4 @@
-// One frame of a trace, in memory: what was recorded of one step.
+// One frame of a trace in memory: the record of one step.
 #pragma once
 
 #include <cstdint>
@@ -28,8 +28,8 @@ enum class Group : std::uint32_t {
   kContacts = 1U << 4,    // every application of the response, in the order of application
   kNarrow = 1U << 5,      // separations measured by a narrow-phase engine
   kOctree = 1U << 6,      // the scene octree, and the node that each body is stored in
-  kBodyOctree = 1U << 7,  // the octrees over the shapes' vertices, told once: with the first frame that is recorded
-  kDetectedOrientation = 1U << 8,  // orientations that collision detection saw, of engines whose bodies turn
+  kBodyOctree = 1U << 7,  // the octrees over the shapes' vertices, recorded once, with the first frame
+  kDetectedOrientation = 1U << 8,  // orientations that collision detection saw, for engines whose bodies turn
   kPoints = 1U << 9,               // points of contact with the totals of the step
   kWideBodies = 1U << 10,          // the states of kBodies in float64; a trace with it has kBodies too
   kPartPoses = 1U << 11,           // where bodies were between the parts of a step
@@ -63,7 +63,7 @@ struct FrameRecord {
   std::vector<Quat> orientation;
   std::vector<Vec3> velocity;  // [n] m/s
   std::vector<Vec3> angular_velocity;
-  WideStates wide;  // the same in float64, of kWideBodies; the vectors above are its numbers rounded
+  WideStates wide;  // the same in float64, for kWideBodies; the vectors above then hold these numbers rounded
 
   std::vector<Vec3> detected_position;
   std::vector<Vec3> detected_velocity;
@@ -79,8 +79,8 @@ struct FrameRecord {
 
   std::vector<Contact> contacts;
   std::vector<ContactPoint> points;
-  std::uint32_t parts = 0;  // in how many parts, each with its own points, the step was taken; 0: it is not known
-  // [(parts - 1) n] all bodies at the end of each part but the last one, part after part
+  std::uint32_t parts = 0;  // how many parts, each with its own points, the step was taken in; 0: unknown
+  // [(parts - 1) n] poses of all bodies at the end of each part but the last, part after part
   std::vector<PartPose> part_poses;
 
   std::vector<Pair> measured;
@@ -90,9 +90,9 @@ struct FrameRecord {
   std::vector<std::uint32_t> octree_node_of_body;  // [n] index into octree_nodes
 
   // A shape is a distinct (mesh, orientation); bodies of one shape share its octree of 1 + 8 + 64 nodes.
-  std::vector<std::uint32_t> shape_of_body;   // [n], or none in later frames
-  std::vector<Box> body_octree_boxes;         // 73 a shape, relative to the body's position; empty octants min > max
-  std::vector<std::uint32_t> leaf_of_vertex;  // one a vertex of each shape's mesh, shape after shape: 0 to 63
+  std::vector<std::uint32_t> shape_of_body;  // [n]; empty in later frames
+  std::vector<Box> body_octree_boxes;  // 73 per shape, relative to the body's position; min > max in empty octants
+  std::vector<std::uint32_t> leaf_of_vertex;  // one per vertex of each shape's mesh, shape after shape: 0 to 63
 };
 
 }  // namespace broadside::core

@@ -52,7 +52,7 @@ std::vector<const Column*> columns_of(Records records) {
   return found;
 }
 
-// Never through a double, which would make another NaN of a signaling one.
+// Does not convert through a double, which would change a signaling NaN.
 float as_float(const FieldNumber& n) {
   return std::bit_cast<float>(static_cast<std::uint32_t>(n.bits));
 }
@@ -80,7 +80,7 @@ class Comparison {
   }
 
  private:
-  // False when the filter lets this difference pass.
+  // Returns false when the filter accepts this difference.
   bool note(FrameDifference d) {
     if (passes_ && passes_(d)) return false;
     found_ = d;
@@ -124,7 +124,7 @@ class Comparison {
     const RecordSpan<const std::byte> b = records_of(b_, records);
     const std::size_t both = std::min(a.count, b.count);
     const std::vector<const Column*> fields = columns_of(records);
-    // Equal bytes are equal records; unequal ones may differ in padding alone, so then each number is looked at.
+    // Equal bytes are equal records. Unequal ones may differ only in padding, so then each number is compared.
     if (both > 0 && std::memcmp(a.data, b.data, both * a.stride) != 0) {
       for (std::size_t k = 0; k < both; ++k)
         if (compare_record(fields, a.data + k * a.stride, b.data + k * b.stride, k)) return;
@@ -140,7 +140,7 @@ class Comparison {
         const FieldNumber q = number_at(*c, b, e);
         if (p.bits == q.bits) continue;
         FrameDifference d = about(*c, DifferenceKind::kValue, k);
-        // When the bodies differ it is another contact, so its other numbers do not matter.
+        // When the bodies differ it is a different contact, so its other numbers do not matter.
         if (c->records == Records::kContacts && is_id(*c)) d.kind = kind_of_contact(a_.contacts[k]);
         if (c->records == Records::kPoints && is_point_id(*c)) d.kind = kind_of_point(a_.points[k], b_.points[k]);
         if (d.kind == DifferenceKind::kOnlyInB) name_bodies(d, *c, b_);
@@ -166,8 +166,8 @@ class Comparison {
     return c.offset == offsetof(ContactPoint, a) || c.offset == offsetof(ContactPoint, b);
   }
 
-  // The points at one place are of other bodies: one frame has a point more of its bodies, or both have the same
-  // points.
+  // Called when the points at one place belong to different bodies: either one frame has a point more for its bodies,
+  // or both have the same points in another order.
   DifferenceKind kind_of_point(const ContactPoint& p, const ContactPoint& q) const {
     const auto count = [](const FrameRecord& frame, const ContactPoint& of) {
       return std::count_if(frame.points.begin(), frame.points.end(),
@@ -208,7 +208,7 @@ class Comparison {
         ++i, ++j;
       }
     }
-    if (p != q) return;  // every pair that differs was let pass
+    if (p != q) return;  // the filter accepted every pair that differs
     const auto moved = static_cast<std::size_t>(std::mismatch(a.begin(), a.end(), b.begin()).first - a.begin());
     note_pair(a[moved], DifferenceKind::kOrder, a);
   }

@@ -13,17 +13,17 @@
 
 namespace broadside::core {
 
-// One number of a frame, as it lies in the file.
+// One number of a frame, as it is in the file.
 struct FieldNumber {
   Element element = Element::kU64;
-  std::uint64_t bits = 0;  // of the element, the rest zero
+  std::uint64_t bits = 0;  // the element's bits; the rest are zero
 
   [[nodiscard]] double value() const;
-  // Digits that name the number exactly: 9 for a float, 17 for a double.
+  // Enough digits to identify the number exactly: 9 for a float, 17 for a double.
   [[nodiscard]] std::string text() const;
 };
 
-// ulps_between for floating point, the difference of the numbers for whole ones.
+// ulps_between for floating point; the difference for whole numbers.
 std::uint64_t ulps_between(const FieldNumber& a, const FieldNumber& b);
 
 enum class DifferenceKind : std::uint8_t {
@@ -38,30 +38,30 @@ struct FrameDifference {
   std::string_view field;     // path in the file, "/trace/body/position"; static storage
   std::uint64_t record = 0;   // row within the frame
   std::uint32_t width = 1;    // numbers in that row
-  std::uint32_t element = 0;  // which of them
+  std::uint32_t element = 0;  // which of these numbers
   std::uint32_t body_count = 0;
   std::array<std::uint32_t, 2> bodies{};  // faces of the domain as kFirstFace + k
   FieldNumber a;                          // kValue only
   FieldNumber b;
 
-  // "x", "min.y" for a vector or box; "" for a single number.
+  // "x", or "min.y", for a vector or box; "" for a single number.
   [[nodiscard]] std::string_view element_name() const;
 };
 
-// What is compared beside the fields of the groups.
+// What is compared besides the fields of the groups.
 enum class Bookkeeping : std::uint8_t {
   kIgnored,
   kCounts,          // time, and for pairs the demanded and raw counts
   kCountsAndDigest  // and the digest
 };
 
-// Called for each number, pair or contact that differs: true lets it pass.
+// Called for each number, pair or contact that differs: true accepts the difference.
 using DifferenceFilter = std::function<bool(const FrameDifference&)>;
 
-// The first difference by bits in the order of the pipeline, so that it is nearest to its cause: octrees of the shapes,
-// detection, scene octree, candidate pairs, confirmed pairs and proximities, contacts in their order of application,
-// states at the end, separations, and last the bookkeeping. Only groups that are asked for are compared. Pairs are
-// compared as sets before their order is.
+// The first difference in bits, in the order of the pipeline, so that it is nearest to its cause: octrees of the
+// shapes, detection, scene octree, candidate pairs, confirmed pairs and proximities, contacts in their order of
+// application, states at the end, separations, and last the bookkeeping. Only the requested groups are compared. Pairs
+// are compared as sets before their order is compared.
 std::optional<FrameDifference> first_difference(const FrameRecord& a, const FrameRecord& b, std::uint32_t groups,
                                                 Bookkeeping bookkeeping, const DifferenceFilter& passes = {});
 

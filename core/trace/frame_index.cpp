@@ -8,7 +8,7 @@
 namespace broadside::core {
 namespace {
 
-// What an unwritten element of /trace/step reads as.
+// The value that HDF5 returns for an unwritten element of /trace/step.
 constexpr std::uint64_t kMissingStep = std::numeric_limits<std::uint64_t>::max();
 
 std::uint64_t frames_of(const std::vector<std::uint64_t>& offsets) {

@@ -6,8 +6,8 @@
 namespace broadside::core {
 namespace {
 
-// Frames are read ahead as long as they fit in this: going through a trace in order then costs one HDF5 call per
-// dataset and some 100 frames of 50 bodies.
+// Frames are read ahead up to this many bytes: then reading a trace in order costs one HDF5 call per dataset for some
+// 100 frames of 50 bodies.
 constexpr std::uint64_t kBlockBytes = 4U << 20U;
 
 std::vector<std::uint64_t> inner_dimensions(const Column& c, std::uint64_t bodies) {
@@ -15,7 +15,7 @@ std::vector<std::uint64_t> inner_dimensions(const Column& c, std::uint64_t bodie
   return c.width == 1 ? std::vector<std::uint64_t>{} : std::vector<std::uint64_t>{c.width};
 }
 
-// A bool has two values, and to read a third is undefined: whatever is not 0 becomes 1 before anyone looks.
+// A bool has two values, and reading any other byte as a bool is undefined: every byte that is not 0 becomes 1 first.
 void normalize_flags(std::vector<std::byte>& flags) {
   for (std::byte& b : flags) b = b == std::byte{0} ? std::byte{0} : std::byte{1};
 }

@@ -14,13 +14,13 @@ namespace broadside::core {
 
 class GroupBlock {
  public:
-  // Opens and checks every dataset of the group; what is missing or wrong is noted in source.
+  // Opens and checks every dataset of the group; reports to source what is missing or wrong.
   GroupBlock(Group group, std::uint64_t bodies, Hdf5Source& source);
 
   [[nodiscard]] Group group() const { return group_; }
   // Shortens index to the frames that every dataset reaches.
   void keep_reached(FrameIndex& index) const;
-  // Fills the group's members of record. False when something is wrong, which source then says.
+  // Fills the group's members of record. False when something is wrong; source then has the error.
   bool read(const FrameIndex& index, std::uint64_t frame, Hdf5Source& source, FrameRecord& record);
 
  private:

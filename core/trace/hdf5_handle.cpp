@@ -8,14 +8,14 @@ std::recursive_mutex& hdf5_mutex() {
   return mutex;
 }
 
-// Called for the innermost entry first: its text is the reason, the others only repeat it from farther out.
+// Called for the innermost entry first: its text is the reason, and outer entries only repeat it.
 herr_t take_innermost(unsigned /*n*/, const H5E_error2_t* entry, void* reason) {
   if (entry->desc == nullptr || *entry->desc == '\0') return 0;
   *static_cast<std::string*>(reason) = entry->desc;
   return 1;
 }
 
-// A damaged file may ask for absurd amounts, so the message does not call the file whole.
+// A damaged file may request absurd amounts of memory, so the message must not say that the file is good.
 herr_t notice_no_memory(unsigned /*n*/, const H5E_error2_t* entry, void* is_out_of_memory) {
   if (entry->maj_num == H5E_RESOURCE || entry->min_num == H5E_NOSPACE || entry->min_num == H5E_CANTALLOC)
     *static_cast<bool*>(is_out_of_memory) = true;
@@ -24,8 +24,8 @@ herr_t notice_no_memory(unsigned /*n*/, const H5E_error2_t* entry, void* is_out_
 
 }  // namespace
 
-// Every handle is closed by its owner. When the program ends, HDF5 1.10 would close itself once more, and after some
-// damaged files it says "infinite loop closing library" then.
+// Every handle is closed by its owner. At exit, HDF5 1.10 would close itself once more, and after some damaged files it
+// then prints "infinite loop closing library".
 void never_close_at_exit() {
   static const herr_t kOnce = H5dont_atexit();
   static_cast<void>(kOnce);

@@ -12,7 +12,7 @@
 
 namespace broadside::core {
 
-// Owns one identifier. A destructor cannot report a failed close, so callers that must know call close().
+// Owns one identifier. A destructor cannot report a failed close, so callers that need the result call close().
 class Handle {
  public:
   using Closer = herr_t (*)(hid_t);
@@ -32,7 +32,7 @@ class Handle {
 
   [[nodiscard]] hid_t get() const { return id_; }
   explicit operator bool() const { return id_ >= 0; }
-  // True when there was nothing to close or closing went well.
+  // True when there was nothing to close or closing succeeded.
   bool close() {
     const hid_t id = std::exchange(id_, H5I_INVALID_HID);
     return id < 0 || closer_(id) >= 0;
@@ -43,8 +43,8 @@ class Handle {
   Closer closer_ = nullptr;
 };
 
-// Hold one while calling HDF5: no other thread is inside HDF5 then (Debian builds it without thread safety), and HDF5
-// prints nothing. The old settings come back afterwards. One thread may hold several.
+// Hold one while calling HDF5: it is a lock, because Debian builds HDF5 without thread safety, and it keeps HDF5 from
+// printing. The previous settings are restored afterwards. One thread may hold several.
 class QuietHdf5 {
  public:
   QuietHdf5();
@@ -61,7 +61,7 @@ class QuietHdf5 {
 // The innermost reason on HDF5's error stack, "" when the stack is empty. Empties the stack.
 std::string hdf5_reason();
 
-// what, followed by HDF5's reason in brackets when it gave one.
+// `what`, followed by HDF5's reason in brackets when it gave one.
 Error hdf5_error(const std::string& what, const std::string& where, const std::string& advice);
 
 }  // namespace broadside::core

@@ -17,7 +17,7 @@ Handle text_type(std::size_t length, H5T_cset_t characters = H5T_CSET_UTF8) {
   return type;
 }
 
-// Smaller arrays are stored as they are: a chunk index would cost more than gzip saves.
+// Smaller arrays are stored uncompressed: a chunk index would cost more than gzip saves.
 constexpr std::uint64_t kLeastPackedBytes = 4096;
 
 bool write_attribute(hid_t object, const std::string& name, hid_t type, const Handle& space, const void* data) {
@@ -25,7 +25,7 @@ bool write_attribute(hid_t object, const std::string& name, hid_t type, const Ha
   return attribute && H5Awrite(attribute.get(), type, data) >= 0;
 }
 
-// Shuffle + gzip 1, no times of day in object headers, so that equal traces are equal files as far as HDF5 allows.
+// Shuffle + gzip 1, and no timestamps in object headers, so that equal traces are equal files as far as HDF5 allows.
 Handle creation_properties(std::span<const hsize_t> chunk) {
   Handle properties(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
   H5Pset_obj_track_times(properties.get(), false);
@@ -165,7 +165,7 @@ void Hdf5Sink::texts(const std::string& path, const std::vector<std::string>& va
 Handle Hdf5Sink::growing(const Column& column, std::uint64_t bodies) {
   if (!ok()) return {};
   const bool per_body = column.layout == Layout::kFrameBodies;
-  // [F, n, width], or [F] / [F, width]. A fixed dimension of 0 cannot be chunked, so no bodies get room for one.
+  // [F, n, width], or [F] / [F, width]. A fixed dimension of 0 cannot be chunked, so zero bodies get room for one.
   hsize_t dims[3] = {0, per_body ? bodies : column.width, column.width};
   hsize_t most[3] = {H5S_UNLIMITED, std::max<hsize_t>(1, dims[1]), column.width};
   const int rank = per_body ? 3 : (column.width == 1 ? 1 : 2);

@@ -18,13 +18,13 @@ namespace {
 constexpr const char* kNotOurs = "give a trace that follows core/trace/SCHEMA.md";
 constexpr std::size_t kLongestText = 1U << 20U;  // 1 MiB: settings and notes are a few hundred bytes
 
-// Deflate's best ratio is 1032:1 (258 bytes for 2 bits): no honest array is larger than that many times its file.
+// Deflate's best ratio is 1032:1 (258 bytes for 2 bits): no valid array is larger than that many times its file.
 constexpr std::uint64_t kBestRatio = 1032;
 
-// A chunk is held in memory as a whole, also to read one row of it. HDF5 writes and recommends about 1 MiB.
+// A chunk is held in memory as a whole, even to read a single row of it. HDF5 writes and recommends about 1 MiB.
 constexpr std::uint64_t kLargestChunk = 256U << 20U;
 
-// Exactly the IEEE or whole-number type, in either byte order. A type of the same size with another meaning is refused
+// Exactly the IEEE or integer type, in either byte order. A type of the same size with another meaning is refused
 // rather than converted.
 bool is_type(hid_t type, Element element) {
   const hid_t wanted = hdf5_type(element);
@@ -64,9 +64,10 @@ herr_t take_name(hid_t /*object*/, const char* name, const H5A_info_t* /*info*/,
 
 Handle open_file(const std::filesystem::path& path, unsigned flags) {
   const Handle properties(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
-  H5Pset_file_locking(properties.get(), 0, 1);  // a reader must not stop a writer
-  // Beside a writer, HDF5 reads again what fails its checksum, and waits twice as long before each try, from 1 ns on.
-  // Its default of 100 tries never ends on a damaged superblock; 20 wait for 1 ms, and a write of a few KiB is done.
+  H5Pset_file_locking(properties.get(), 0, 1);  // a reader must not block a writer
+  // While a writer is at work, HDF5 rereads what fails its checksum, and doubles the wait before each try, from 1 ns
+  // on. Its default of 100 tries never ends on a damaged superblock; 20 tries wait for 1 ms, in which a write of a few
+  // KiB finishes.
   H5Pset_metadata_read_attempts(properties.get(), 20);
   return {H5Fopen(path.c_str(), H5F_ACC_RDONLY | flags, properties.get()), H5Fclose};
 }
@@ -83,8 +84,7 @@ bool multiply(const std::vector<hsize_t>& factors, std::uint64_t& product) {
   return true;
 }
 
-// Only the filters that traces use are accepted, and none from a plugin: a filter is code that runs on a stranger's
-// bytes.
+// Accepts only the filters that traces use, and none from a plugin: a filter is code that would run on untrusted bytes.
 bool has_known_filters(hid_t properties) {
   const int count = H5Pget_nfilters(properties);
   for (int k = 0; k < count; ++k) {
@@ -98,18 +98,18 @@ bool has_known_filters(hid_t properties) {
   return count >= 0;
 }
 
-// What a dataset says about its storage, before any of its values is read.
+// What a dataset says about its storage; checked before any of its values is read.
 struct Storage {
   std::string fault;  // empty: it can be read
   std::string advice;
-  // The most bytes that this much stored data can unpack to.
+  // The largest size to which this much stored data can decompress.
   std::uint64_t most_bytes = 0;
 };
 
 Storage storage_of(hid_t set, std::uint64_t element_bytes, std::uint64_t file_bytes) {
   const Handle properties(H5Dget_create_plist(set), H5Pclose);
   const H5D_layout_t layout = properties ? H5Pget_layout(properties.get()) : H5D_LAYOUT_ERROR;
-  // External storage and virtual datasets read other files.
+  // External storage and virtual datasets would read other files.
   if (layout == H5D_VIRTUAL || !properties || H5Pget_external_count(properties.get()) != 0)
     return {"its values lie in another file", kNotOurs, 0};
   if (layout != H5D_CHUNKED) return {"", "", file_bytes};
@@ -145,7 +145,7 @@ Result<Hdf5Source> Hdf5Source::open(const std::filesystem::path& path) {
     return Error{"it cannot be read (" + std::system_category().message(errno) + ")", where, "change its permissions"};
   if (Status fits = check_attributes(path); !fits) return fits.error();
   Handle file = open_file(path, 0);
-  // A writer that was killed leaves its mark in the file; so does one that is still at work.
+  // A writer that was killed leaves its mark in the file; a writer that is still at work has set it too.
   const bool was_left_open = !file;
   if (was_left_open) file = open_file(path, H5F_ACC_SWMR_READ);
   if (!file) {
@@ -167,7 +167,7 @@ void Hdf5Source::fail_hdf5(const std::string& at, const std::string& what) {
 
 bool Hdf5Source::has(const std::string& path) const {
   if (path == "/") return true;
-  // Part by part: HDF5 fails, rather than says no, when a parent is missing.
+  // Checked parent by parent: HDF5 fails, rather than returning false, when a parent is missing.
   for (std::size_t slash = path.find('/', 1); slash != std::string::npos; slash = path.find('/', slash + 1))
     if (!is_in_this_file(file_.get(), path.substr(0, slash))) return false;
   return is_in_this_file(file_.get(), path);

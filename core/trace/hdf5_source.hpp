@@ -18,18 +18,18 @@ struct OpenArray {
   Handle set;
   Element element = Element::kU8;
   std::uint64_t rows = 0;
-  std::uint64_t row_bytes = 0;  // of one row: the product of the other dimensions and the element
+  std::uint64_t row_bytes = 0;  // the bytes of one row: the product of the other dimensions and the element's size
   std::vector<hsize_t> dims;
 };
 
-// Keeps the first failure and then returns empty values: the caller reads everything and asks once.
+// Keeps the first failure and then returns empty values: the caller reads everything and checks once.
 class Hdf5Source {
  public:
   // A finished file, or one that a writer left or is still writing.
   static Result<Hdf5Source> open(const std::filesystem::path& path);
 
-  // Whether the object exists in this very file: a link to elsewhere does not count, since following it would make
-  // another file's content pass for this one's.
+  // Whether the object exists in this very file. A link to another file does not count, since following it would
+  // present that file's content as this one's.
   [[nodiscard]] bool has(const std::string& path) const;
   [[nodiscard]] bool has_attribute(const std::string& path, const std::string& name) const;
   std::vector<std::string> attribute_names(const std::string& path);
@@ -43,13 +43,13 @@ class Hdf5Source {
   void numbers(const std::string& path, const std::string& name, Element element, void* values, std::size_t count);
   std::string text(const std::string& path, const std::string& name);
 
-  // Whether the object is a dataset of these elements; false where it is anything else.
+  // Whether the object is a dataset of these elements; false for anything else.
   bool has_elements(const std::string& path, Element element);
-  // Dimensions of the dataset; empty when there is none, which array() then reports.
+  // Dimensions of the dataset; empty when there is none; array() then reports the error.
   std::vector<std::uint64_t> shape(const std::string& path);
   // Dimensions after the first must be these; none = a plain list.
   OpenArray array(const std::string& path, Element element, const std::vector<std::uint64_t>& inner);
-  // out becomes count rows, from first on.
+  // Reads count rows, from first on, into out.
   bool read(const OpenArray& array, const std::string& path, std::uint64_t first, std::uint64_t count,
             std::vector<std::byte>& out);
   template <typename T>
@@ -65,7 +65,7 @@ class Hdf5Source {
   std::vector<std::string> texts(const std::string& path);
 
   void close() { file_.close(); }
-  // The first failure wins.
+  // Only the first failure is kept.
   void fail(const std::string& at, const std::string& what, const std::string& advice);
   [[nodiscard]] bool ok() const { return !error_; }
   [[nodiscard]] const Error& error() const { return *error_; }
@@ -88,8 +88,8 @@ class Hdf5Source {
   bool read_into(const OpenArray& array, const std::string& path, std::uint64_t first, std::uint64_t count,
                  std::byte* out);
   void fail_hdf5(const std::string& at, const std::string& what);
-  // Whether the dataset is stored in this file, by means that are known, and in a size that the file can have. When
-  // not, the failure says which of these is wrong.
+  // Whether the dataset is stored in this file, by known means, and with a size that the file can hold. If not, the
+  // failure says which of these is wrong.
   bool can_hold(hid_t set, const std::string& path, const std::vector<hsize_t>& dims, std::uint64_t element_bytes);
 
   Handle file_;

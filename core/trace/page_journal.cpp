@@ -124,7 +124,7 @@ Status finish_from_journal(const std::filesystem::path& path) {
   constexpr int kTries = 500;
   for (int k = 0; k < kTries; ++k) {
     const int fd = open(path.c_str(), O_RDONLY | O_CLOEXEC);
-    if (fd < 0) return Done{};  // the next read reports why
+    if (fd < 0) return Done{};  // the next read reports the reason
     const std::optional<Journal> journal = read_journal(fd);
     close(fd);
     if (!journal) return Done{};
@@ -132,7 +132,7 @@ Status finish_from_journal(const std::filesystem::path& path) {
       std::this_thread::sleep_for(milliseconds(2));
       continue;
     }
-    // Two processes may finish the same journal at once: they write the same bytes.
+    // Two processes may complete the same journal at once: they write the same bytes.
     const int writable = open(path.c_str(), O_WRONLY | O_CLOEXEC);
     if (writable < 0) return disk_error(errno, path, "finishing its last flush, which was cut off,");
     const int code = put_in_place(writable, journal->end, journal->pages);

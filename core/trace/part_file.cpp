@@ -17,7 +17,7 @@
 namespace broadside::core {
 namespace {
 
-// What HDF5 holds per open file: its own part first, as the driver interface demands.
+// HDF5's data for an open file. HDF5's own part comes first, as its driver interface demands.
 struct DriverFile {
   H5FD_t base;
   PartFile* file;
@@ -87,8 +87,8 @@ herr_t driver_truncate(H5FD_t* f, hid_t /*p*/, hbool_t /*closing*/) {
   return 0;
 }
 
-// HDF5 marks a file as being written only when its driver can lock, and a reader asks for that mark to open what a
-// killed writer left. The lock that counts is PartFile's own.
+// Does nothing. HDF5 marks a file as being written only when its driver can lock, and a reader needs that mark to open
+// what a killed writer left. The lock that counts is PartFile's own.
 herr_t driver_lock(H5FD_t* /*f*/, hbool_t /*exclusive*/) {
   return 0;
 }
@@ -120,7 +120,7 @@ Handle register_driver() {
 }
 
 // An open-file-description lock: it belongs to this descriptor, so a second writer in the same process is refused too,
-// and the end of the process, however it ends, lets go of it.
+// and the lock ends with the process, however it ends.
 bool lock_whole_file(int fd) {
   struct flock whole {};
   whole.l_type = F_WRLCK;
@@ -167,7 +167,7 @@ Status rename_durably(const std::filesystem::path& from, const std::filesystem::
   const std::filesystem::path folder = to.has_parent_path() ? to.parent_path() : ".";
   const int fd = open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   if (fd < 0) return disk_error(errno, folder, "opening the folder");
-  // Some file systems have nothing to sync for a folder and say EINVAL.
+  // Some file systems have nothing to sync for a folder and return EINVAL.
   const int code = fsync(fd) == 0 || errno == EINVAL ? 0 : errno;
   close(fd);
   if (code != 0) return disk_error(code, folder, "syncing the folder");
@@ -196,7 +196,7 @@ Result<std::unique_ptr<PartFile>> PartFile::create(const std::filesystem::path& 
                      "wait until it is done or choose another name"};
       return disk_error(errno, path, "locking the file");
     }
-    // Between open and lock the former writer may have finished and renamed it: then this is its final file.
+    // Between open and lock, the previous writer may have finished and renamed the file: then this is its final file.
     if (is_still_named(fd, path)) return file;
   }
 }
@@ -223,7 +223,7 @@ int PartFile::sync() {
 
 void PartFile::write_at(std::uint64_t address, const std::byte* data, std::size_t size) {
   end_ = std::max(end_, address + size);
-  // A page in which the committed part ends belongs to it.
+  // The page in which the committed part ends counts as committed.
   const std::uint64_t free_from = (committed_end_ + kPageBytes - 1) / kPageBytes * kPageBytes;
   if (address < free_from) {
     const std::size_t n = std::min<std::uint64_t>(size, free_from - address);
@@ -238,7 +238,8 @@ void PartFile::write_at(std::uint64_t address, const std::byte* data, std::size_
 
 bool PartFile::commit() {
   if (refused_ != 0) return false;
-  // One page is written whole or not at all; more need the journal, behind what either content needs.
+  // One page is written completely or not at all; more pages need the journal, placed after both the old and the new
+  // content.
   const std::uint64_t behind = std::max(end_, committed_end_);
   if (pages_.size() > 1) refused_ = append_journal(fd_, behind, end_, pages_);
   if (refused_ == 0 && (!pages_.empty() || end_ < committed_end_)) refused_ = put_in_place(fd_, end_, pages_);
@@ -303,7 +304,7 @@ bool PartFile::read_at(std::uint64_t address, std::byte* data, std::size_t size)
 
 void PartFile::resize(std::uint64_t size) {
   end_ = size;
-  // What was committed is cut off by commit(), not before.
+  // HDF5 may not truncate committed bytes; commit() does that later.
   if (refused_ == 0 && size >= committed_end_ && ftruncate(fd_, static_cast<off_t>(size)) != 0) refused_ = errno;
 }
 

@@ -47,7 +47,7 @@ Result<RecoverReport> recover_trace(const std::filesystem::path& part, const std
 
   TraceHeader header = trace.header();
   header.notes["recovered"] = report.line();
-  // Written under another name: the part file of `out` itself would be the file that is being read.
+  // Written under another name: the part file of `out` itself could be the file that is being read.
   const std::filesystem::path whole = std::filesystem::path(out) += ".recovered";
   Result<TraceWriter> writer = TraceWriter::create(whole, header);
   if (!writer) return writer.error();

@@ -15,14 +15,14 @@ bool any_bad(const std::vector<Pair>& pairs, std::uint32_t bodies) {
   return std::any_of(pairs.begin(), pairs.end(), [bodies](Pair p) { return is_bad(p, bodies); });
 }
 
-// Contacts and points alike.
+// For contacts and points alike.
 template <typename Row>
 bool is_bad(const Row& c, std::uint32_t bodies) {
   const bool is_known_face = is_face(c.b) && c.b - kFirstFace < kFaceCount;
   return c.a >= bodies || (c.b >= bodies && !is_known_face);
 }
 
-// The dataset that names a body which the scene does not have, "" when none does.
+// The dataset with a body id that the scene does not have; "" when there is none.
 const char* bad_body(const FrameRecord& r, std::uint32_t bodies) {
   if (any_bad(r.pairs, bodies)) return "/trace/pairs/pairs";
   if (any_bad(r.confirmed, bodies)) return "/trace/confirmed/pairs";
@@ -32,7 +32,7 @@ const char* bad_body(const FrameRecord& r, std::uint32_t bodies) {
   return std::any_of(r.contacts.begin(), r.contacts.end(), bad) ? "/trace/contact" : "";
 }
 
-// After bad_body: the bodies of the confirmed pairs exist.
+// Called after bad_body: the bodies of the confirmed pairs exist.
 bool any_bad_vertex(const FrameRecord& r, const Scene& scene) {
   const auto vertices = [&scene](std::uint32_t body) { return scene.meshes[scene.bodies[body].mesh]->vertices.size(); };
   for (std::size_t k = 0; k < r.proximity.size(); ++k) {

@@ -1,4 +1,4 @@
-// What no frame may name: a body that the scene does not have, or a vertex that its mesh does not have.
+// Ids that no frame may contain: a body that the scene does not have, or a vertex that its mesh does not have.
 #pragma once
 
 #include <optional>
@@ -11,12 +11,12 @@ namespace broadside::core {
 
 struct FrameFault {
   std::string at;      // the dataset, "/trace/pairs/pairs"
-  std::string what;    // with the step
+  std::string what;    // what is wrong, with the step
   std::string advice;  // what to do about it
 };
 
-// The first fault; none in a frame that may be written and read. Readers refuse a file by it, and the Python package a
-// frame before it is written.
+// The first fault; nothing for a frame that may be written and read. Readers refuse a file that has such a frame, and
+// the Python package refuses the frame before it is written.
 std::optional<FrameFault> fault_of(const FrameRecord& frame, const Scene& scene);
 
 }  // namespace broadside::core

@@ -7,7 +7,7 @@
 namespace broadside::core {
 namespace {
 
-// Plain numbers of a struct, by name: written and read through one table each, so that neither can forget a field.
+// Plain numbers of a struct, by name. Writing and reading use the same table, so that neither can forget a field.
 struct Field {
   const char* name;
   Element element;
@@ -85,7 +85,7 @@ constexpr std::array kWrenchFields{
 };
 static_assert(sizeof(Wrench) == 8 * sizeof(float), "a new property of a wrench needs its row");
 
-// An array of structs as one dataset a field.
+// Writes an array of structs as one dataset per field.
 template <typename Table, typename Row>
 void write_rows(Hdf5Sink& sink, const std::string& group, const Table& table, const std::vector<Row>& rows) {
   sink.group(group);
@@ -132,7 +132,7 @@ void write_mass_properties(Hdf5Sink& sink, const std::vector<MassProperties>& ro
   sink.array(kCenterOfMass, Element::kF64, 3, rows.size(), center.data(), "m");
 }
 
-// Inertia without a center of mass is about the mesh's origin.
+// Inertia without a center of mass refers to the mesh's origin.
 std::vector<MassProperties> read_mass_properties(Hdf5Source& source, std::size_t bodies) {
   if (!source.has(kInertia)) {
     if (source.has(kCenterOfMass))

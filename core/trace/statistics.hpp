@@ -11,9 +11,9 @@ namespace broadside::core {
 
 constexpr std::uint64_t kStatisticsWindow = 100;  // steps, METHOD 9
 
-// Of the recorded frames among steps 100 k + 1 to 100 k + 100 (step 0, the initial state, counts to the first window).
-// The depths are those of body contacts before each application; faces of the domain are counted apart. Mean, largest
-// and share are NaN when there was no body contact.
+// Statistics of the recorded frames among steps 100 k + 1 to 100 k + 100 (step 0, the initial state, belongs to the
+// first window). The depths are those of body contacts before each application; contacts with faces of the domain are
+// counted separately. Mean, largest and share are NaN when there was no body contact.
 struct PenetrationStatistics {
   std::uint64_t first_step = 0;
   std::uint64_t last_step = 0;
@@ -30,9 +30,9 @@ class PenetrationCounter {
  public:
   explicit PenetrationCounter(float delta_m) : delta_m_(delta_m) {}
 
-  // The row of the window before, when this frame opens a new one.
+  // When this frame opens a new window, returns the row of the previous one.
   std::optional<PenetrationStatistics> add(std::uint64_t step, std::span<const Contact> contacts);
-  // The row of the window that is open, if any frame is in it. Nothing may be added after it.
+  // The row of the open window, if any frame is in it. Nothing may be added afterwards.
   [[nodiscard]] std::optional<PenetrationStatistics> rest() const;
 
  private:

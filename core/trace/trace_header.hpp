@@ -1,4 +1,4 @@
-// What a trace says once, about all of its frames.
+// The part of a trace that applies to all of its frames.
 #pragma once
 
 #include <cstdint>
@@ -13,8 +13,8 @@
 
 namespace broadside::core {
 
-// Raised whenever a reader of the previous version would misread a file. CHANGELOG.md lists the breaks. Format 1, which
-// has no declaration, still opens (core/trace/format1.hpp).
+// Increased whenever a reader of the previous version would misread a file. CHANGELOG.md lists the breaks. Format 1,
+// which has no declaration, can still be opened (core/trace/format1.hpp).
 constexpr std::uint32_t kTraceFormatVersion = 2;
 
 struct TraceHeader {
@@ -24,13 +24,13 @@ struct TraceHeader {
   std::uint32_t groups = 0;  // bit(Group) of each group that the frames have
   RecordLevel level = RecordLevel::kFull;
   std::uint32_t every = 1;  // every k-th frame was recorded
-  // Of the broad phase, where the trace has pairs.
+  // Whether the broad phase is exact, where the trace has pairs.
   bool broad_is_exact = true;
   double broad_margin_m = 0.0;
-  // What produced the boxes or poses that a broad-phase or narrow-phase engine was fed: "octree-cpu"; empty for a
-  // trace of dynamics.
+  // The engine whose boxes or poses were fed to a broad-phase or narrow-phase engine: "octree-cpu"; empty for a trace
+  // of dynamics.
   std::string driver;
-  // Anything else worth knowing, as printed in the report's equivalence card: "theta_m" -> "0.0312".
+  // Any other information, as printed in the report's equivalence card: "theta_m" -> "0.0312".
   std::map<std::string, std::string> notes;
 };
 

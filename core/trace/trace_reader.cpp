@@ -18,7 +18,7 @@
 namespace broadside::core {
 namespace {
 
-// The file's format version, 1 or 2; what it is not is noted in source.
+// The file's format version, 1 or 2; any other is reported to source.
 std::uint32_t read_format(Hdf5Source& source) {
   if (!source.has_attribute("/", "format") || source.text("/", "format") != "broadside-trace") {
     source.fail("/@format", "it is an HDF5 file but no Broadside trace",
@@ -34,10 +34,10 @@ std::uint32_t read_format(Hdf5Source& source) {
   return version;
 }
 
-// Its elements say whether the states are float32 or float64.
+// The element type of this dataset says whether the states are float32 or float64.
 constexpr const char* kBodyPosition = "/trace/body/position";
 
-// The numbers of kBodies from those of kWideBodies.
+// Fills kBodies with the rounded numbers of kWideBodies.
 void narrow_states(FrameRecord& record) {
   const auto narrow = [](const auto& from, auto& to) {
     to.clear();
@@ -95,7 +95,7 @@ struct TraceReader::Impl {
   void keep_frames() {
     keep_complete(index);
     for (const GroupBlock& g : groups) g.keep_reached(index);
-    // A trace under its final name was finished: a missing frame is an error. Only a part file may end in the middle.
+    // A trace under its final name is complete: a missing frame is an error. Only a part file may end in the middle.
     if (index.frame_count() != index.frames_begun && !source.was_left_open() && source.path().extension() != ".part")
       source.fail("/trace",
                   "its datasets end at different frames, " + std::to_string(index.frame_count()) + " to " +
@@ -112,7 +112,7 @@ struct TraceReader::Impl {
     record.step = index.steps[frame];
     record.time_s = index.times[frame];
     record.digest = index.digests[frame];
-    // States are taken in the precision that the file has.
+    // States are read in the precision that the file has.
     if ((wanted & (bit(Group::kBodies) | bit(Group::kWideBodies))) != 0U)
       wanted |= bit(Group::kBodies) | bit(Group::kWideBodies);
     for (GroupBlock& g : groups)
@@ -132,7 +132,7 @@ struct TraceReader::Impl {
       if (c.layout != Layout::kWindows) continue;
       const auto column = source.whole<std::byte>(std::string(c.path), c.element, c.width);
       if (!source.ok()) return source.error();
-      // What a writer left behind may have rows that its frames do not reach, and columns of unequal length.
+      // The file of an interrupted writer may have rows past its last frame, and columns of unequal length.
       const std::size_t count = column.size() / row_bytes(c);
       rows.resize(is_first ? count : std::min(count, rows.size()));
       is_first = false;
@@ -144,7 +144,7 @@ struct TraceReader::Impl {
     return rows;
   }
 
-  // When a file asks for more memory than there is, what work() throws becomes one more fault of the file.
+  // When a file needs more memory than there is, the exception from work() is reported as a fault of the file.
   template <typename Work>
   auto guarded(Work work) -> decltype(work()) {
     const QuietHdf5 quiet;

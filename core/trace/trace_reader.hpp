@@ -13,11 +13,11 @@
 
 namespace broadside::core {
 
-// Not thread-safe. Trusts nothing in the file: types, shapes, offsets and indices are checked before use.
+// Not thread-safe. Does not trust the file: types, shapes, offsets and indices are checked before use.
 class TraceReader {
  public:
-  // A file that is no trace, is of a later version, or lacks what it must have is an error that says so. A .part file
-  // opens too, with the frames that were flushed.
+  // A file that is not a trace, is of a later version, or lacks a required part is an error that says so. A .part file
+  // can be opened too, with the frames that were flushed.
   static Result<TraceReader> open(const std::filesystem::path& path);
 
   TraceReader(TraceReader&&) noexcept;
@@ -27,14 +27,14 @@ class TraceReader {
   [[nodiscard]] const TraceHeader& header() const;
   [[nodiscard]] const std::filesystem::path& path() const;
   [[nodiscard]] std::uint64_t frame_count() const;
-  // More than frame_count() when the writer was cut off: frames of which a part is in the file.
+  // More than frame_count() when the writer was interrupted: some frames are only partly in the file.
   [[nodiscard]] std::uint64_t frames_begun() const;
   // Step of each recorded frame, rising.
   [[nodiscard]] const std::vector<std::uint64_t>& steps() const;
   [[nodiscard]] const std::vector<std::uint64_t>& digests() const;
-  // Random access by index 0 .. frame_count()-1; only the asked-for groups are read, and none that the trace lacks.
+  // Random access by index 0 .. frame_count()-1; reads only the requested groups that the trace has.
   Result<FrameRecord> read(std::uint64_t index, std::uint32_t groups) const;
-  // The rows that the writer made every 100 steps, METHOD 9; none without contacts.
+  // The rows that the writer made every 100 steps, METHOD 9; empty without contacts.
   Result<std::vector<PenetrationStatistics>> statistics() const;
 
  private:

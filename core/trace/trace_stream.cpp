@@ -14,11 +14,11 @@
 namespace broadside::core {
 namespace {
 
-// How often the writer looks for waiting frames and for a due flush without being woken. Much shorter than the time
-// between two flushes, which is what a kill may lose.
+// How often the writer checks, without being woken, for waiting frames and for a flush that is due. Much shorter than
+// the time between two flushes, which bounds what a kill may lose.
 constexpr std::chrono::milliseconds kIdle{25};
-// The writer is woken when this much waits. Waking a thread takes longer than to queue a frame of a digest alone, and
-// the run would pay that in every frame.
+// The writer is woken when this many bytes wait. Waking a thread takes longer than queueing a frame that has only a
+// digest, and the run would pay for it in every frame.
 constexpr std::size_t kWorthWaking = 256U << 10U;
 
 std::size_t bytes_of(const FrameRecord& frame) {
@@ -45,7 +45,7 @@ struct TraceStream::Impl {
   Impl(const Impl&) = delete;
   Impl& operator=(const Impl&) = delete;
 
-  // The writer's thread.
+  // Runs on the writer's thread.
   void write_frames() {
     std::unique_lock lock(mutex);
     for (;;) {
@@ -63,10 +63,10 @@ struct TraceStream::Impl {
     }
   }
 
-  // The frame stays in the queue while it is written, so its bytes count.
+  // The frame stays in the queue while it is written, so its bytes still count.
   void write_front(std::unique_lock<std::mutex>& lock) {
     writer.hurry(waiting_bytes > queue_bytes / 2);
-    const FrameRecord& frame = queue.front().frame;  // stays in place while others are queued behind it
+    const FrameRecord& frame = queue.front().frame;  // its address stays valid while frames are queued behind it
     lock.unlock();
     const Status s = error ? Status(*error) : writer.append(frame);
     lock.lock();
@@ -76,12 +76,12 @@ struct TraceStream::Impl {
     changed.notify_all();
   }
 
-  // Whether the writer should work off its queue now.
+  // Whether the writer should write the queued frames now.
   [[nodiscard]] bool is_awake() const {
     return is_ending || (!queue.empty() && (is_awaited || waiting_bytes >= kWorthWaking));
   }
 
-  // For callers that wait for the writer.
+  // Used by callers that wait for the writer.
   template <typename Condition>
   void await(std::unique_lock<std::mutex>& lock, const Condition& condition) {
     is_awaited = true;
@@ -110,7 +110,7 @@ struct TraceStream::Impl {
     return Done{};
   }
 
-  // Until the thread holds nothing; then the writer is this thread's.
+  // Waits until the thread has nothing left; then this thread may use the writer.
   Status drain(std::unique_lock<std::mutex>& lock) {
     await(lock, [this] { return queue.empty() && !is_busy; });
     if (error) return *error;
@@ -130,7 +130,7 @@ struct TraceStream::Impl {
   std::size_t queue_bytes;
   std::mutex mutex;
   std::condition_variable changed;
-  // Guarded by the mutex; the front is the thread's alone. error is set once.
+  // Guarded by the mutex; only the thread uses the front. error is set once.
   std::deque<Waiting> queue;
   std::size_t waiting_bytes = 0;
   bool is_busy = false;

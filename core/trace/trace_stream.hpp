@@ -1,4 +1,4 @@
-// Writes a trace on a thread of its own, behind a queue that is bounded in bytes. The run goes on while a frame is
+// Writes a trace on a separate thread, behind a queue of bounded size in bytes. The run continues while a frame is
 // packed and written; when the disk is slower than the run, the run waits and no frame is lost.
 #pragma once
 
@@ -13,11 +13,11 @@
 
 namespace broadside::core {
 
-// Frames that may wait. One frame of any size may always be on its way.
+// Bytes of frames that may wait. An empty queue accepts a frame of any size.
 constexpr std::size_t kQueueBytes = 256U << 20U;
 
-// Used from one thread. Destroyed before finish(), it writes what waits and leaves NAME.part behind, as TraceWriter
-// does.
+// Used from one thread. If it is destroyed before finish(), it writes the waiting frames and leaves NAME.part behind,
+// as TraceWriter does.
 class TraceStream {
  public:
   static Result<TraceStream> create(const std::filesystem::path& path, const TraceHeader& header,
@@ -27,11 +27,11 @@ class TraceStream {
   TraceStream& operator=(TraceStream&&) noexcept;
   ~TraceStream();
 
-  // Waits while the queue is full. The error may be that of an earlier frame; once failed it stays failed.
+  // Waits while the queue is full. The error may come from an earlier frame; after a failure every call fails.
   Status append(FrameRecord frame);
-  // Waits until everything appended so far would survive the end of this process.
+  // Waits until everything appended so far would survive the death of this process.
   Status flush();
-  // Waits for the rest, then TraceWriter::finish().
+  // Waits for the remaining frames, then calls TraceWriter::finish().
   Status finish();
 
   // How often append() had to wait.

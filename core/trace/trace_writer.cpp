@@ -19,11 +19,11 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// Rows wait in memory up to this much, so that small frames do not cost one HDF5 call per dataset each; then they go to
-// HDF5's chunk cache. 4 MiB is some 100 frames of 50 bodies.
+// Rows wait in memory up to this size and then go to HDF5's chunk cache, so that small frames do not each cost one HDF5
+// call per dataset. 4 MiB is some 100 frames of 50 bodies.
 constexpr std::size_t kWaitingBytes = 4U << 20U;
-// A killed writer loses at most the frames of about this long; at its start, of less, so that short runs leave
-// something.
+// A killed writer loses at most the frames of about one flush period. The period is shorter at the start, so that short
+// runs leave something.
 constexpr std::chrono::milliseconds kShortestFlushPeriod{100};
 constexpr std::chrono::milliseconds kFlushPeriod{1000};
 
@@ -83,7 +83,7 @@ struct TraceWriter::Impl {
 
   ~Impl() {
     const QuietHdf5 quiet;
-    if (part && !failed && !finished) static_cast<void>(flush());  // a destructor can tell nobody
+    if (part && !failed && !finished) static_cast<void>(flush());  // a destructor cannot report an error
     columns.clear();
     if (file.close() && part) static_cast<void>(part->commit());
   }
@@ -93,7 +93,7 @@ struct TraceWriter::Impl {
     return error;
   }
 
-  // What HDF5 or the disk refused, and what can still be saved.
+  // The error for a refusal of HDF5 or the disk, with what can still be saved.
   Error stop_writing(const std::string& doing) {
     Error error = part->refused() != 0 ? disk_error(part->refused(), part->path(), doing)
                                        : hdf5_error(doing + " failed", part->path().string(), "choose another folder");
@@ -103,7 +103,7 @@ struct TraceWriter::Impl {
     return stop(std::move(error));
   }
 
-  // Hands rows to HDF5. Steps wait for flush(): a step in the file means that all else of its frame is there.
+  // Passes rows to HDF5. Steps wait for flush(): a step in the file means that the rest of its frame is there.
   bool write_columns() {
     for (ColumnBuffer& c : columns)
       if (c.column().records != Records::kStep && !c.write(packing)) return false;
@@ -233,7 +233,7 @@ Result<TraceWriter> TraceWriter::create(const std::filesystem::path& path, const
       if (c.groups == bit(Group::kBodies) && (header.groups & bit(Group::kWideBodies)) != 0U) continue;
       impl->columns.emplace_back(c, impl->bodies, sink.growing(c, impl->bodies));
     }
-    // From here on a kill at any moment leaves a file that opens.
+    // From here on, a kill at any moment leaves a file that can be opened.
     good = sink.ok() && H5Fflush(impl->file.get(), H5F_SCOPE_LOCAL) >= 0 &&
            H5Fstart_swmr_write(impl->file.get()) >= 0 && impl->part->commit();
   }

@@ -14,21 +14,21 @@ namespace broadside::core {
 // NAME.part behind, readable up to the last flushed frame, and never a file under the final name.
 class TraceWriter {
  public:
-  // Creates path + ".part"; an existing file of the final name stays as it is until finish().
+  // Creates path + ".part"; an existing file of the final name is not changed until finish().
   static Result<TraceWriter> create(const std::filesystem::path& path, const TraceHeader& header);
 
   TraceWriter(TraceWriter&&) noexcept;
   TraceWriter& operator=(TraceWriter&&) noexcept;
   ~TraceWriter();
 
-  // The groups in the header must be filled; others are ignored. Steps must rise.
+  // The groups in the header must be filled; others are ignored. Steps must increase.
   Status append(const FrameRecord& frame);
-  // When late, frames that fill whole chunks go to the file without being compressed: larger, and several times faster.
+  // When late, frames that fill whole chunks are written uncompressed: larger, and several times faster.
   void hurry(bool is_late);
-  // Makes everything appended so far survive the end of this process.
+  // Makes everything appended so far survive the death of this process.
   Status flush();
-  // The same when a flush is due, a second after the last one; append() asks too, so only a writer that waits for
-  // frames need call it.
+  // Flushes when a flush is due, a second after the last one. append() checks this too, so only a writer that waits for
+  // frames needs to call it.
   Status flush_if_due();
   // Closes, syncs to disk and renames to the final name. Nothing may be appended after it.
   Status finish();

@@ -36,7 +36,7 @@ std::vector<std::uint64_t> chosen_frames(const TraceReader& trace, const ViewReq
   return frames;
 }
 
-// Times of frames come with the frames; no group is read for them.
+// The times are read with the frames, without reading any group.
 Result<std::vector<XdmfFrame>> times_of(const TraceReader& trace, const std::vector<std::uint64_t>& frames) {
   std::vector<XdmfFrame> times;
   for (const std::uint64_t k : frames) {

@@ -1,4 +1,4 @@
-// Files that other programs look at: /VTKHDF with points of their own, and XDMF text over a file that has /VTKHDF.
+// Files for viewers: /VTKHDF with its own points, and XDMF text over a file that has /VTKHDF.
 #pragma once
 
 #include <cstdint>
@@ -19,7 +19,7 @@ enum class ViewOf : std::uint8_t {
 
 struct ViewRequest {
   ViewOf of = ViewOf::kBoxes;
-  // Which recorded frames: steps first to last, every k-th of them.
+  // Selects recorded frames: steps first to last, every k-th of them.
   std::uint64_t first_step = 0;
   std::uint64_t last_step = std::numeric_limits<std::uint64_t>::max();
   std::uint64_t every = 1;
@@ -27,15 +27,16 @@ struct ViewRequest {
 
 struct ViewReport {
   std::uint64_t frames = 0;
-  std::uint64_t cells = 0;  // in each frame
+  std::uint64_t cells = 0;  // the number in each frame
 };
 
-// Writes file, an HDF5 file with the group /VTKHDF alone, and its XDMF text beside it (extension .xdmf). The trace
-// needs the group detection. Errors: it has none, no frame fits the request, or the disk refuses.
+// Writes file, an HDF5 file that has only the group /VTKHDF, and its XDMF text beside it (extension .xdmf). The trace
+// needs the group detection. Errors: the group is missing, no frame fits the request, or the disk refuses.
 Result<ViewReport> write_view(const TraceReader& trace, const ViewRequest& request, const std::filesystem::path& file);
 
-// XDMF text over the boxes that the trace file itself has as virtual datasets: nothing is copied. The text names the
-// trace by its file name, so it must stand beside it. Error: the trace has none (format 1, or written by others).
+// XDMF text over the boxes that the trace file already has as virtual datasets: nothing is copied. The text refers to
+// the trace by its file name, so both must be in one folder. Error: the trace has no such datasets (format 1, or
+// written by another program).
 Result<ViewReport> write_xdmf(const TraceReader& trace, const std::filesystem::path& xdmf);
 
 }  // namespace broadside::core

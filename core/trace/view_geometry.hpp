@@ -1,4 +1,4 @@
-// What is drawn of each body, as points that move with it. Private to core/trace/*.cpp.
+// The geometry that is drawn for each body, as points that move with it. Private to core/trace/*.cpp.
 #pragma once
 
 #include <vector>
@@ -16,7 +16,7 @@ class ViewGeometry {
   ViewGeometry(const Scene& scene, ViewOf of);
 
   [[nodiscard]] const VtkTopology& topology() const { return topology_; }
-  // Of a frame that has the group detection: topology().points points in the world frame, m.
+  // For a frame that has the group detection: topology().points points in the world frame, m.
   [[nodiscard]] std::vector<Vec3> points(const FrameRecord& frame) const;
 
  private:
@@ -25,8 +25,8 @@ class ViewGeometry {
 
   bool is_boxes_;
   VtkTopology topology_;
-  std::vector<Vec3> local_;             // relative to the body's position; empty for boxes, which are recorded
-  std::vector<std::uint32_t> body_of_;  // of each local point
+  std::vector<Vec3> local_;             // relative to the body's position; empty for boxes, which the trace has
+  std::vector<std::uint32_t> body_of_;  // the body of each local point
 };
 
 }  // namespace broadside::core

@@ -7,7 +7,7 @@
 namespace broadside::core {
 namespace {
 
-constexpr const char* kThisFile = ".";  // in a virtual dataset, HDF5's name for the file itself
+constexpr const char* kThisFile = ".";  // HDF5's name for the file itself, in a virtual dataset
 
 Handle space_of(const std::vector<hsize_t>& dims) {
   return {H5Screate_simple(static_cast<int>(dims.size()), dims.data(), nullptr), H5Sclose};
@@ -27,7 +27,7 @@ Handle virtual_properties() {
   return properties;
 }
 
-// The same values in another shape.
+// A virtual dataset that shows the same values in another shape.
 void reshaped(Hdf5Sink& sink, const std::string& path, const std::vector<hsize_t>& shape, const char* source,
               const std::vector<hsize_t>& source_shape, Element element, const std::string& unit) {
   if (!sink.ok()) return;
@@ -45,7 +45,7 @@ void virtual_corners(Hdf5Sink& sink, const std::string& path, hsize_t frames, hs
   const Handle here = space_of({frames * 8 * bodies, 3});
   const Handle there = space_of({frames, bodies, 6});
   bool good = true;
-  // Columns axis .. axis + width - 1 of corner c, from column `from` of the boxes on.
+  // Maps columns axis .. axis + width - 1 of corner c, from column `from` of the boxes on.
   const auto map = [&](hsize_t c, hsize_t axis, hsize_t width, hsize_t from) {
     const std::array<hsize_t, 2> start{c * bodies, axis}, stride{8 * bodies, 1}, count{frames, 1}, block{bodies, width};
     const std::array<hsize_t, 3> source_start{0, 0, from}, source_count{frames, bodies, width};

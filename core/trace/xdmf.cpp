@@ -9,7 +9,7 @@ std::string text_of(std::uint64_t n) {
   return std::to_string(n);
 }
 
-// Names of files may hold what XML keeps for itself.
+// Escapes characters of file names that are reserved in XML.
 std::string escaped(const std::string& text) {
   std::string out;
   for (const char c : text) {
@@ -29,8 +29,8 @@ class Text {
  public:
   Text(const std::string& file, std::uint64_t frames) : file_(escaped(file)), frames_(frames) {}
 
-  // A whole dataset, or with rows = "|start:stride:count:size" some of it: that form, unlike an item of type HyperSlab,
-  // the reader of ParaView 5.11 takes for points.
+  // A whole dataset, or part of it when rows = "|start:stride:count:size". For points, the reader of ParaView 5.11
+  // accepts this form, but not an item of type HyperSlab.
   [[nodiscard]] std::string dataset(const std::string& path, const std::string& dimensions, const char* type, int bytes,
                                     const std::string& rows = "") const {
     return "<DataItem Format=\"HDF\" Dimensions=\"" + dimensions + "\" NumberType=\"" + type + "\" Precision=\"" +

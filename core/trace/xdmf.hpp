@@ -1,4 +1,4 @@
-// XDMF text: what ParaView 5.11 needs to play an HDF5 file's cells in time. Private to core/trace/*.cpp.
+// XDMF text: what ParaView 5.11 needs to play the cells of an HDF5 file over time. Private to core/trace/*.cpp.
 #pragma once
 
 #include <string>
@@ -13,7 +13,7 @@ struct XdmfFrame {
   double time_s = 0.0;
 };
 
-// file: the HDF5 file with /VTKHDF, as the text names it: relative to the text's own folder.
+// file: the HDF5 file with /VTKHDF, as the text names it: relative to the folder of the text.
 std::string xdmf_text(const std::string& file, const VtkTopology& topology, const std::vector<XdmfFrame>& frames,
                       bool has_velocity);
 

@@ -1,12 +1,12 @@
-// An engine for Broadside in JavaScript: import { serve } and give it an object with the functions that you have. It
+// An engine for Broadside in JavaScript: import { serve } and give it an object with the functions that you have. serve
 // speaks the protocol of core/plugin/PROGRAMS.md over standard input and output, until its input ends.
 //
 //   serve({ id: "my-world", build: "mine 1.0, double", what: "one line",
 //           declared: { motion: "rigid", contacts: "totals" },
 //           begin(scene) {}, step(dt) {}, readStates() { return [...] }, readPoints() { return [...] } });
 //
-// Rows are objects with the names of broadside_engine_v2.h. A function that throws fails the call with the message. Give
-// stepSeconds: true and let step return its seconds, and these are the times; otherwise the times include the pipe.
+// Rows are objects with the names of broadside_engine_v2.h. When a function throws, the call fails with the message.
+// With stepSeconds: true, step returns its own seconds, which are then the times; otherwise the times include the pipe.
 import { readSync, writeSync } from "node:fs";
 
 const MAGIC = "BROADSID",
@@ -208,7 +208,7 @@ function helloOf(e) {
   return w;
 }
 
-// Answers by call number. A list of rows is cut to the room that was asked for; the caller comes again with more.
+// Answers by call number. A list of rows is cut to the requested room; the caller then calls again with more room.
 function listed(layout, rows, r) {
   const room = r.one("u64");
   return new Writer().one("u64", rows.length).rows(layout, rows.slice(0, room));
@@ -277,7 +277,7 @@ function send(status, payload) {
 }
 
 export function serve(engine) {
-  console.log = console.info = console.error; // standard output carries the protocol alone
+  console.log = console.info = console.error; // standard output carries only the protocol
   const head = Buffer.alloc(4);
   while (receive(head)) {
     const message = Buffer.alloc(head.readUInt32LE(0));

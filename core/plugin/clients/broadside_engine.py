@@ -179,7 +179,7 @@ def answer(engine, call, r):
 def serve(engine, answer_to=answer):
     """Answers until the input ends. answer_to: what makes the payload of an answer, where rows are packed otherwise."""
     given, sent = os.fdopen(os.dup(0), "rb"), os.fdopen(os.dup(1), "wb")
-    os.dup2(2, 1)  # standard output carries the protocol alone
+    os.dup2(2, 1)  # standard output carries only the protocol
     sys.stdout = sys.stderr
     while len(head := given.read(4)) == 4:
         message = given.read(struct.unpack("<I", head)[0])

@@ -1,4 +1,4 @@
-//! An engine for Broadside in Rust: implement `Engine` and call `serve`. It speaks the protocol of
+//! An engine for Broadside in Rust: implement `Engine` and call `serve`, which speaks the protocol of
 //! core/plugin/PROGRAMS.md over standard input and output, until its input ends. No crates are needed:
 //!
 //! ```text
@@ -7,7 +7,7 @@
 //! ```
 //!
 //! Broad phases and dynamics are here; names and units are those of broadside_engine_v2.h. An `Err` fails the call with
-//! its text. Print for people with `eprintln!`: standard output carries the protocol alone.
+//! its text. Print for people with `eprintln!`: standard output carries only the protocol.
 #![allow(dead_code)]
 
 use std::io::{Read, Write};
@@ -15,7 +15,7 @@ use std::io::{Read, Write};
 pub const FIRST_FACE: u32 = 0xFFFF_FFF0;
 pub type Done = Result<(), String>;
 
-/// What the engine says of itself. `offers` is a sum of the constants below.
+/// What the engine declares about itself. `offers` is a sum of the constants below.
 pub struct Hello {
     pub offers: u32,
     pub is_exact: bool,
@@ -139,7 +139,7 @@ pub trait Engine {
     fn begin(&mut self, _scene: &Scene) -> Done {
         absent()
     }
-    /// Its seconds, sent where STEP_SECONDS is offered.
+    /// Returns its own seconds, which are sent when STEP_SECONDS is offered.
     fn step(&mut self, _dt: f64) -> Result<f64, String> {
         Err("not offered".into())
     }
@@ -161,7 +161,7 @@ fn absent() -> Done {
     Err("not offered".into())
 }
 
-/// Numbers from the front of a message.
+/// Reads numbers from the front of a message.
 struct Reader<'a>(&'a [u8]);
 impl Reader<'_> {
     fn bytes<const N: usize>(&mut self) -> [u8; N] {
@@ -273,7 +273,7 @@ impl Writer {
         self.u32(text.len() as u32);
         self.0.extend(text.as_bytes());
     }
-    /// Cut to the room that was asked for; the caller comes again with more.
+    /// Cuts the rows to the requested room; the caller then calls again with more room.
     fn rows<T>(&mut self, rows: &[T], room: u64, put: impl Fn(&mut Writer, &T)) {
         self.u64(rows.len() as u64);
         rows.iter().take(room as usize).for_each(|row| put(self, row));

@@ -2,8 +2,8 @@
 //!
 //!     rustc -O bouncing_ball.rs && broadside run rolling_ball.toml --engine ./bouncing_ball
 //!
-//! Each face is one point of contact, so the impulses are in closed form: what stops or reverses the approach, and the
-//! friction that stops the slip or lies on the cone.
+//! Each face has one point of contact, so the impulses are in closed form: the normal impulse that stops or reverses
+//! the approach, and the friction that stops the slip or lies on the cone.
 #[path = "../clients/broadside_engine.rs"]
 mod broadside_engine;
 use broadside_engine::*;
@@ -25,7 +25,7 @@ fn cross(a: V, b: V) -> V {
     [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }
 
-/// The next float32 outward: recorded boxes contain the ball.
+/// Rounds to the next float32 outward, so that recorded boxes contain the ball.
 fn outward(x: f64, side: f64) -> f32 {
     let near = x as f32;
     if side * (near as f64 - x) > 0.0 {
@@ -64,7 +64,7 @@ impl Ball {
         -dot(self.state.velocity, n)
     }
 
-    /// Leaves the speed along n, at least, and brakes the slip. Returns the impulse.
+    /// Brings the speed along n to at least `least`, and brakes the slip. Returns the impulse.
     fn push(&mut self, n: V, least: f64) -> V {
         let mass = self.scene.bodies[0].mass;
         let normal = (mass * (least + self.approach(n))).max(0.0);
@@ -82,7 +82,7 @@ impl Ball {
         impulse
     }
 
-    /// By the rotation vector h w: exact, as a ball's spin is constant while nothing acts.
+    /// Rotates by the rotation vector h w, which is exact: a ball's spin is constant while nothing acts on it.
     fn turn(&mut self, h: f64) {
         let angle = h * size(self.state.angular_velocity);
         let s = if angle > 0.0 { h * (0.5 * angle).sin() / angle } else { 0.5 * h };
@@ -176,7 +176,7 @@ impl Engine for Ball {
                 total[face] = add(total[face], self.push(n, least))
             }
         }
-        // Free flight is exact; a ball that a face held back moves with the speed that the face allows.
+        // Free flight is exact; a ball that a face stopped moves with the velocity that the face allows.
         let is_free = self.state.velocity == free;
         let way = if is_free { scaled(0.5 * h, add(before, free)) } else { scaled(h, self.state.velocity) };
         for (face, &(normal, gap)) in faces.iter().enumerate() {

@@ -1,8 +1,9 @@
 /* One body that flies, turns and bounces off the faces of the domain: an engine of version 2, in float64.
  *
- * A ball, a capsule or a box is up to eight small balls that touch a face. Each step: points where a face is near;
- * impacts, which rebound; gravity, then impulses that let no gap close further (Gauss-Seidel, friction within the
- * cone); motion, with the angular momentum constant, so that the gyroscopic term is in it. */
+ * A ball, a capsule or a box is represented by up to eight small balls that touch a face. Each step finds points where
+ * a face is near, applies impacts, which rebound, then gravity, then impulses that keep gaps from closing further
+ * (Gauss-Seidel, friction within the cone), and moves the body with its angular momentum constant, which includes the
+ * gyroscopic term. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -160,7 +161,7 @@ static int begin(void* self, const broadside_scene2* scene) {
   return BROADSIDE_OK;
 }
 
-/* Boxes hold floats: rounded outward, so that they contain the shape. */
+/* Boxes hold floats; they are rounded outward, so that they contain the shape. */
 static void see(body* b) {
   into(b->seen.position, add(b->x, scaled(-1.0, turned(b->q, b->center))));
   memcpy(b->seen.orientation, b->q, sizeof b->q);
@@ -198,7 +199,7 @@ static void push(body* b, vec at, vec impulse) {
   b->v = add(b->v, scaled(1.0 / b->mass, impulse));
   b->momentum = add(b->momentum, cross(add(at, scaled(-1.0, b->x)), impulse));
 }
-/* How much faster the point gets along d for an impulse of 1 N s along d. */
+/* The change of the point's speed along d by an impulse of 1 N s along d. */
 static double mobility(const body* b, vec at, vec d) {
   const vec arm = cross(add(at, scaled(-1.0, b->x)), d);
   return 1.0 / b->mass + dot(arm, spin(b, b->q, arm));
@@ -213,7 +214,7 @@ static void solve(body* b, point* p) {
   const vec t = {n.y, n.z, n.x}, u = {n.z, n.x, n.y}; /* of an axis: the two others */
   const vec v = velocity_at(b, p->at);
   const vec slip = add(v, scaled(-dot(v, n), n));
-  /* The sum of both mobilities is at least that of any direction, so no step goes too far. */
+  /* The sum of both mobilities is at least that of any direction between, so no step goes too far. */
   vec drag = add(p->drag, scaled(-1.0 / (mobility(b, p->at, t) + mobility(b, p->at, u)), slip));
   if (size(drag) > b->mu_static * p->push) drag = scaled(b->mu_kinetic * p->push / size(drag), drag);
   push(b, p->at, add(drag, scaled(-1.0, p->drag)));
@@ -283,7 +284,7 @@ static int step(void* self, double h) {
   const vec free_speed = b->v;
   solve_all(b, all);
   const int is_free = memcmp(&free_speed, &b->v, sizeof free_speed) == 0;
-  /* Free flight is exact; a body that a face held back moves with the speed that the face allows. */
+  /* Free flight is exact; a body that a face stopped moves with the velocity that the face allows. */
   b->x = add(b->x, is_free ? scaled(0.5 * h, add(before, b->v)) : scaled(h, b->v));
   turn(b, h);
   return BROADSIDE_OK;

@@ -2,8 +2,8 @@
 //
 //   broadside run spinning_box.toml --engine 'node bouncing_body.mjs'
 //
-// A ball or a box is one or eight small balls that touch a face. The angular momentum is the state, so the gyroscopic
-// term is in it. What each step does is told in bouncing_body.c.
+// A ball or a box is represented by one or eight small balls that touch a face. The state has the angular momentum,
+// which includes the gyroscopic term. bouncing_body.c describes each step.
 import { FIRST_FACE, serve } from "../clients/broadside_engine.mjs";
 
 const SWEEPS = 100;
@@ -97,7 +97,7 @@ function begin(given) {
   body.reach = Math.max(...body.corners.map(size)) + body.radius;
 }
 
-// The next float32 outward: recorded boxes contain the shape.
+// Rounds to the next float32 outward, so that recorded boxes contain the shape.
 function outward(x, side) {
   const near = Math.fround(x);
   return side * (near - x) > 0 ? near : Math.fround(near + side * Math.max(Math.abs(near) * 2 ** -23, 2 ** -126));

@@ -136,7 +136,7 @@ class World:
         self.push(p.at, scaled(p.push - before, n))
         v = self.speed_at(p.at)
         slip = add(v, n, -dot(v, n))
-        # The sum over both directions across is at least the mobility of any of them, so no step goes too far.
+        # The sum over both directions is at least the mobility of any direction between, so no step goes too far.
         across = sum(self.mobility(p.at, a) for a in AXES if dot(a, n) == 0.0)
         drag = add(p.drag, slip, -1.0 / across)
         if size(drag) > self.mu_static * p.push:

@@ -1,6 +1,6 @@
 /* A broad phase in Python: runs the function find_pairs(boxes, is_static) of a module next to this library. boxes is a
  * list of 6-tuples (min x y z, max x y z) and is_static a list of 0 and 1; it returns pairs of indices. For trying out
- * an idea: an interpreter's time is measured, not an algorithm's. */
+ * an idea: the measured time is the interpreter's, not the algorithm's. */
 #define PY_SSIZE_T_CLEAN
 #include <Python.h>
 #include <dlfcn.h>
@@ -20,7 +20,7 @@ typedef struct {
 
 static char create_error[512];
 
-/* The exception that Python holds, as a line. */
+/* Python's current exception, as one line. */
 static int failed(char* text, size_t room) {
   PyObject *type = NULL, *value = NULL, *trace = NULL;
   PyErr_Fetch(&type, &value, &trace);
@@ -34,7 +34,7 @@ static int failed(char* text, size_t room) {
   return BROADSIDE_FAILED;
 }
 
-/* The folder of this library goes to the front of Python's path. */
+/* Puts the folder of this library at the front of Python's path. */
 static void add_own_folder(void) {
   Dl_info info;
   if (dladdr((const void*)&add_own_folder, &info) == 0 || info.dli_fname == NULL) return;

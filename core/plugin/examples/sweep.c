@@ -1,4 +1,4 @@
-/* A broad phase in C: boxes sorted by their lower x, then compared with those that begin before they end. */
+/* A broad phase in C: boxes sorted by their lower x, then each compared with the boxes that begin before it ends. */
 #include <stdlib.h>
 #include <string.h>
 

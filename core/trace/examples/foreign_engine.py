@@ -40,7 +40,7 @@ def simulate(start, vertices):
         x = x + DT * v
         frame = {"position": x.copy(), "velocity": v.copy(), "boxes": np.hstack([x + low, x + high])}
         frame["pairs"] = overlapping(frame["boxes"])
-        for axis in range(3):  # an own response: what passed a wall is put back and turned round
+        for axis in range(3):  # its own response: a cube that passed a wall is put back and its velocity reversed
             for wall, side, sign in ((DOMAIN[axis], low[axis], F32(1)), (DOMAIN[axis + 3], high[axis], F32(-1))):
                 out = sign * (x[:, axis] + side - wall) < 0
                 x[out, axis] = wall - side
@@ -99,7 +99,7 @@ def write(path, start, mesh, frames):
         trace = file.create_group("trace")
         steps = np.arange(1, FRAMES + 1, dtype=U64)
         trace["step"], trace["time"] = steps, steps * np.float64(DT)
-        trace["digest"] = np.zeros(FRAMES, U64)  # zeros: none, as the provenance says
+        trace["digest"] = np.zeros(FRAMES, U64)  # zeros: no digests, as the provenance says
         still = np.zeros((FRAMES, BODIES, 3), F32)
         trace["body/position"] = np.stack([f["end_position"] for f in frames])
         trace["body/velocity"] = np.stack([f["end_velocity"] for f in frames])

@@ -87,7 +87,7 @@ def write(path, given, mesh, frames, fault):
         scene.attrs["dt_s"], scene.attrs["frames"], scene.attrs["seed"] = DT, U32(FRAMES), U64(0)
         for name, value in {"delta_m": 0.001, "v_threshold_m_s": 0.3, "beta": 1, "alpha": 1, "impulse_min_n_s": 0,
                             "v_max_m_s": 50, "epsilon_m": 1e-6, "theta_m": 0, "hash_cell_m": 0.25}.items():
-            scene.require_group("parameters").attrs[name] = F32(value)  # from beta on: of engines of METHOD alone
+            scene.require_group("parameters").attrs[name] = F32(value)  # from beta on: only for engines of METHOD
         for name in ("mu_static", "mu_kinetic", "restitution"):
             scene.require_group("face_material").attrs[name] = F32(given["face_" + name])
             scene["body/" + name] = np.array([body[name]], F32)
