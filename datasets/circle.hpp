@@ -1,4 +1,4 @@
-// Cosines and sines with the same bits on every machine: scenes hold directions, and libraries differ in the last
+// Cosines and sines with the same bits on every machine: scenes contain directions, and libraries differ in the last
 // digit.
 #pragma once
 
@@ -11,7 +11,7 @@ struct Turn {
   double sine = 0.0;
 };
 
-// Of an angle in rad, |angle| <= pi: the power series, whose 16 terms reach double's rounding there.
+// Cosine and sine of an angle in rad, |angle| <= pi, by the power series; 16 terms reach the rounding of double there.
 constexpr Turn turn_by(double angle_rad) {
   Turn t;
   const double square = angle_rad * angle_rad;
@@ -27,11 +27,11 @@ constexpr Turn turn_by(double angle_rad) {
   return t;
 }
 
-// The k-th of n parts of the full circle, k < n. Quarters are exact.
+// Cosine and sine of k / n of the full circle, k < n. Quarters are exact.
 constexpr Turn part_of_circle(std::uint32_t k, std::uint32_t n) {
   constexpr double kPi = 3.14159265358979323846;
   const std::uint32_t quarter = 4 * k / n;
-  // What is left of the quarter, below pi / 2.
+  // The rest of the angle within its quarter, below pi / 2.
   const Turn t = turn_by(2.0 * kPi * (static_cast<double>(k) / n - 0.25 * quarter));
   switch (quarter) {
     case 1:

@@ -5,8 +5,8 @@
 
 namespace broadside::datasets {
 
-// Newton's method from above falls until rounding stops it. std::cbrt differs between libraries in the last bit, and a
-// scene must be the same scene everywhere. 0 for v <= 0.
+// Newton's method from above decreases until rounding stops it. std::cbrt is not used because libraries differ in its
+// last bit, and a scene must be the same everywhere. 0 for v <= 0.
 inline double cube_root(double v) {
   if (!(v > 0.0)) return 0.0;
   double r = std::max(v, 1.0);

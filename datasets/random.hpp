@@ -9,8 +9,8 @@
 
 namespace broadside::datasets {
 
-// No function of libm but sqrt, which IEEE 754 rounds correctly: sin, cos, log and pow differ between libraries in the
-// last bit, and a scene must be the same scene everywhere.
+// Uses no function of libm except sqrt, which IEEE 754 rounds correctly: sin, cos, log and pow differ between libraries
+// in the last bit, and a scene must be the same everywhere.
 class RandomStream {
  public:
   explicit RandomStream(std::uint64_t seed) : state_(seed) {}
@@ -27,7 +27,8 @@ class RandomStream {
   // Uniform in [low, high).
   double between(double low, double high) { return low + (high - low) * unit(); }
 
-  // Uniform in 0 ... count - 1; count > 0. Multiply-shift: the bias is below count / 2^32, unseen for counts here.
+  // Uniform in 0 ... count - 1; count > 0. Multiply-shift: the bias is below count / 2^32, negligible for the counts
+  // used here.
   std::uint32_t below(std::uint32_t count) { return static_cast<std::uint32_t>(((bits() >> 32) * count) >> 32); }
 
   struct Direction {
@@ -41,7 +42,8 @@ class RandomStream {
       const double y = between(-1.0, 1.0);
       const double z = between(-1.0, 1.0);
       const double squared = (x * x + y * y) + z * z;
-      // Points too near the center would lose digits; outside the ball directions would crowd at the cube's corners.
+      // Points too near the center would lose digits; points outside the ball would crowd directions at the cube's
+      // corners.
       if (squared > 1.0 || squared < 1e-4) continue;
       const double r = std::sqrt(squared);
       return {x / r, y / r, z / r};

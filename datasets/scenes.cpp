@@ -24,7 +24,7 @@ using core::Error;
 using core::Result;
 using core::Scene;
 
-// METHOD section 9: the longest side of every mesh's box; the hash cell of 0.25 m is then a quarter of a body.
+// METHOD section 9: the longest side of every mesh's box. The hash cell of 0.25 m is then a quarter of a body.
 constexpr double kLongestSide_m = 1.0;
 
 template <typename Number>
@@ -33,7 +33,7 @@ bool reads_as(const std::string& text, Number& out) {
   return failed == std::errc() && end == text.data() + text.size();
 }
 
-// The options of a name: each is asked for once, and what is left over is an error.
+// The options of a name: each is queried once, and any that is left over is an error.
 class NameOptions {
  public:
   explicit NameOptions(const SceneName& name) : name_(name) {}
@@ -92,7 +92,7 @@ Result<Scene> small_scene(const SmallSceneRow& row, const SceneName& name, const
   Scene scene = row.make();
   NameOptions given(name);
   given.number("seed", std::uint64_t{0}, kMostSeed, scene.seed);
-  // Another step at the same end time, unless the number of steps is given too.
+  // With another step, the end time stays the same, unless the number of steps is given too.
   double dt_s = scene.dt_s;
   given.number("dt_s", 1e-6, 1.0, dt_s);
   if (dt_s != scene.dt_s) {

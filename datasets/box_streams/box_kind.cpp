@@ -32,14 +32,15 @@ Triple center_of(const Box& b) {
   return center;
 }
 
-// Cubic cells over the bounds of the centers; a world that is flat or a line has cells in a plane or a row alone.
+// Cubic cells over the bounds of the centers; a world that is flat or a line has only a plane or a row of cells.
 double cells_of_half(const std::vector<Triple>& centers) {
   Triple low = centers[0];
   Triple high = centers[0];
   for (const Triple& c : centers)
     for (std::size_t k = 0; k < 3; ++k) low[k] = std::min(low[k], c[k]), high[k] = std::max(high[k], c[k]);
   const double wanted = std::max(1.0, static_cast<double>(centers.size()) / kBoxesACell);
-  // The width of a cell at which the world has as many as are wanted: by halving, since an axis has one cell at least.
+  // Finds the cell width at which the world has the wanted number of cells. Uses bisection, because each axis has at
+  // least one cell.
   const double widest = std::max({high[0] - low[0], high[1] - low[1], high[2] - low[2]});
   if (!(widest > 0.0)) return 1.0;
   const auto cells = [&](double width, std::size_t k) { return std::floor((high[k] - low[k]) / width) + 1.0; };

@@ -1,5 +1,5 @@
-// What kind of set some boxes are, in figures that tell why a search is fast or slow on them: how unequal, how thin,
-// how clustered.
+// Figures that characterize a set of boxes and explain why a search is fast or slow on it: how unequal, how thin and
+// how clustered the boxes are.
 #pragma once
 
 #include <cstdint>
@@ -12,26 +12,26 @@ namespace broadside::datasets {
 
 struct BoxKind {
   std::uint64_t boxes = 0;
-  // Longest sides, m.
+  // Shortest, median and longest of the boxes' longest sides, m.
   double least_m = 0.0;
   double median_m = 0.0;
   double most_m = 0.0;
-  // Boxes that are more than 16 times longer than thick.
+  // Share of boxes that are more than 16 times longer than thick.
   double thin_share = 0.0;
-  // Of the shortest side to the longest, the median: 1 for cubes, 0 for what lies in a plane or on a line.
+  // The median ratio of the shortest to the longest side: 1 for cubes, 0 for boxes in a plane or on a line.
   double flatness = 0.0;
-  // The least share of the world's cells that holds half of the boxes, where a cell holds 8 on average: some 0.4 where
-  // boxes are spread evenly, 0.001 where they lie in heaps far apart.
+  // The smallest share of the world's cells that holds half of the boxes, with cells that hold 8 on average: some 0.4
+  // where boxes are spread evenly, 0.001 where they lie in heaps far apart.
   double cells_of_half = 0.0;
 
-  // Most over least; infinite where some boxes are points and some are not.
+  // Largest over smallest; infinite where some boxes are points and some are not.
   [[nodiscard]] double size_ratio() const;
 };
 
-// Of at most 100,000 of them, evenly by number. All are finite, min <= max.
+// Computed from at most 100,000 of the boxes, spread evenly over their numbers. All boxes are finite, min <= max.
 BoxKind kind_of(std::span<const core::Box> boxes);
 
-// "100000 boxes; longest sides 0.51 to 1.5 m, ..."; with the pairs that an engine found.
+// "100000 boxes; longest sides 0.51 to 1.5 m, ...", followed by the number of pairs that an engine found.
 std::string words_of(const BoxKind& kind, double pairs_a_box);
 
 }  // namespace broadside::datasets

@@ -96,7 +96,7 @@ std::vector<Box> mixed_boxes(std::uint32_t n, std::uint64_t seed) {
   boxes.reserve(n);
   for (std::uint32_t k = 0; k < n; ++k) {
     const Triple center = drawn(random, 0.0, width);
-    // The inverse of the distribution 1 - 1 / s^2.
+    // The inverse of the cumulative distribution 1 - 1 / s^2.
     const double pareto = std::min(1000.0, 1.0 / std::sqrt(1.0 - random.unit()));
     const double s = k == n / 2 ? 1000.0 : pareto;
     boxes.push_back(box_of(center, drawn(random, 0.8 * s, 1.2 * s)));

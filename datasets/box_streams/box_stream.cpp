@@ -25,9 +25,9 @@ namespace {
 using core::Error;
 using core::Result;
 
-// 24 bytes a box: 24 GB, which machines for such sets have several times over.
+// 24 bytes per box: 24 GB in all, a small part of the memory of machines that run such sets.
 constexpr std::uint32_t kMaxBoxes = 1'000'000'000;
-// Part of the set's definition: long enough for a coherent engine to settle.
+// Part of the set's definition: long enough for an engine that uses frame coherence to settle.
 constexpr std::uint32_t kMovingFrames = 100;
 
 BoxStream one_frame(std::vector<core::Box> boxes) {
@@ -60,7 +60,7 @@ BoxStream broadmark(std::uint32_t n, std::uint64_t seed) {
 using enum BroadmarkScene;
 using enum BroadmarkObjects;
 
-// All pairs of identical boxes overlap: 450 million of them, 3.6 GB.
+// All pairs of identical boxes overlap: with this count 450 million of them, 3.6 GB.
 constexpr std::uint32_t kMostIdentical = 30'000;
 
 constexpr std::array<BoxSet, 28> kBoxSets{{

@@ -24,8 +24,8 @@ std::vector<Box> boxes_of_density(std::uint32_t n, std::uint64_t seed, double de
 
 std::vector<Box> boxes_of_size_ratio(std::uint32_t n, std::uint64_t seed, double ratio) {
   RandomStream random(seed);
-  // The inverse of the distribution 1 - 1 / s^2. Moments are those of the sizes drawn: their formulas need a logarithm,
-  // whose last bit differs between libraries.
+  // The inverse of the cumulative distribution 1 - 1 / s^2. Moments are computed from the drawn sizes, because their
+  // formulas need a logarithm, whose last bit differs between libraries.
   std::vector<double> sizes(n);
   double first = 0.0;
   double second = 0.0;

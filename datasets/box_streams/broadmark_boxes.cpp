@@ -15,7 +15,7 @@ constexpr double kStep_s = 1.0 / 30.0;
 constexpr std::uint32_t kBroadmarkFrames = 300;
 constexpr double kGravity_m_s2 = 9.81;
 constexpr double kGravityScale = 4.0;
-// Cosine and sine of 360 / 30 / 6.2 degrees, as literals: libraries differ in the last bit of both.
+// Cosine and sine of 360 / 30 / 6.2 degrees, as literals, because libraries differ in the last bit of both.
 constexpr double kCos = 0.999429490929718;
 constexpr double kSin = 0.03377414188346815;
 
@@ -25,7 +25,7 @@ Triple in_ball(RandomStream& random, double radius) {
   return {r * d.x, r * d.y, r * d.z};
 }
 
-// v turned about the unit axis u by the angle above (Rodrigues).
+// v rotated about the unit axis u by the angle above (Rodrigues).
 Triple turned(const Triple& v, const Triple& u) {
   const double along = (v[0] * u[0] + v[1] * u[1] + v[2] * u[2]) * (1.0 - kCos);
   return {v[0] * kCos + (u[1] * v[2] - u[2] * v[1]) * kSin + u[0] * along,
@@ -33,7 +33,7 @@ Triple turned(const Triple& v, const Triple& u) {
           v[2] * kCos + (u[0] * v[1] - u[1] * v[0]) * kSin + u[2] * along};
 }
 
-// w x y z.
+// A quaternion w x y z.
 using TurnParts = std::array<double, 4>;
 
 TurnParts normalized(TurnParts q) {
@@ -47,7 +47,7 @@ TurnParts product(const TurnParts& p, const TurnParts& q) {
           p[0] * q[2] - p[1] * q[3] + p[2] * q[0] + p[3] * q[1], p[0] * q[3] + p[1] * q[2] - p[2] * q[1] + p[3] * q[0]};
 }
 
-// Sides of the box around a unit cube that is turned by q: the sums of the rotation matrix's rows in magnitude.
+// Sides of the box around a unit cube that is rotated by q: the sums of magnitudes in the rows of the rotation matrix.
 Triple sides_of_turned_cube(const TurnParts& q) {
   const auto [w, x, y, z] = q;
   return {std::abs(1.0 - 2.0 * (y * y + z * z)) + std::abs(2.0 * (x * y - w * z)) + std::abs(2.0 * (x * z + w * y)),
@@ -123,7 +123,7 @@ class BroadmarkWorld {
       double& x = centers_[i][k];
       v = std::clamp(v + kStep_s * a[k], -top_speed_, top_speed_);
       x += kStep_s * v;
-      // Mirrored at the wall; a step is at most a fortieth of the width.
+      // Reflected at the wall; a step is at most a fortieth of the width.
       if (x < 0.0) x = -x, v = -v;
       if (x > width_) x = 2.0 * width_ - x, v = -v;
     }
@@ -151,10 +151,10 @@ class BroadmarkWorld {
   std::vector<Triple> centers_;
   std::vector<Triple> velocities_;
   std::vector<Triple> sides_;
-  std::vector<TurnParts> turns_;  // of tumbling cubes, and their turn in one step
+  std::vector<TurnParts> turns_;  // orientations of tumbling cubes, and their rotation per step
   std::vector<TurnParts> spins_;
   std::vector<bool> is_resting_;
-  std::vector<double> heights_;  // how high the pile is over each unit square of ground
+  std::vector<double> heights_;  // the height of the pile over each unit square of ground
   std::size_t cells_ = 0;
   std::size_t next_ = 0;  // the next object that gets a new velocity
   Triple axis_{0.0, 1.0, 0.0};

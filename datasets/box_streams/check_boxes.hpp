@@ -1,4 +1,4 @@
-// Which boxes a broad phase may be given.
+// Which boxes may be given to a broad phase.
 #pragma once
 
 #include <span>
@@ -9,7 +9,8 @@
 
 namespace broadside::datasets {
 
-// Finite, and min <= max on every axis. The error names `where`, the first bad box by its number, and the axis.
+// Requires finite boxes with min <= max on every axis. The error has `where`, the number of the first bad box, and the
+// axis.
 core::Status check_boxes(std::span<const core::Box> boxes, const std::string& where);
 
 }  // namespace broadside::datasets

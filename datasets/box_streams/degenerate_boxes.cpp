@@ -9,7 +9,7 @@ namespace {
 using core::Box;
 using Boxes = std::vector<Box>;
 
-// uniform_boxes before rounding to float, with each coordinate sent through a map.
+// uniform_boxes with each coordinate mapped before it is rounded to float.
 template <typename Map>
 Boxes mapped_uniform(std::uint32_t n, std::uint64_t seed, const Map& map) {
   RandomStream random(seed);

@@ -17,7 +17,7 @@ namespace {
 using core::Box;
 using Matrix = std::array<Triple, 3>;
 
-// Of a unit quaternion drawn uniformly, by rejection from the cube of four sides.
+// The matrix of a uniformly drawn unit quaternion, by rejection from the four-dimensional cube.
 Matrix drawn_turn(RandomStream& random) {
   for (;;) {
     const Triple v = drawn(random, -1.0, 1.0);
@@ -65,7 +65,7 @@ std::vector<Box> mesh_boxes(const core::Mesh& mesh, std::uint32_t copies, std::u
     for (std::size_t k = 0; k < turned.size(); ++k) {
       Triple from;
       for (int axis = 0; axis < 3; ++axis) from[axis] = static_cast<double>(mesh.vertices[k][axis]) - middle[axis];
-      // Each vertex is rounded once, so that triangles which share it still touch.
+      // Each vertex is rounded only once, so that triangles that share it still touch.
       for (int axis = 0; axis < 3; ++axis)
         turned[k][axis] = static_cast<float>(
             center[axis] + ((turn[axis][0] * from[0] + turn[axis][1] * from[1]) + turn[axis][2] * from[2]));

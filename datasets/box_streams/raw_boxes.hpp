@@ -1,4 +1,4 @@
-// The raw format by which users bring boxes of their own.
+// The raw format in which users provide their own boxes.
 #pragma once
 
 #include <filesystem>
@@ -15,7 +15,7 @@ namespace broadside::datasets {
 // infinite, or has min above max, by its number and axis.
 core::Result<std::vector<core::Box>> read_raw_boxes(const std::filesystem::path& path);
 
-// The file appears whole under its name or not at all.
+// The file appears complete under its name or not at all.
 core::Status write_raw_boxes(std::span<const core::Box> boxes, const std::filesystem::path& path);
 
 }  // namespace broadside::datasets

@@ -11,16 +11,17 @@ namespace broadside::datasets {
 namespace {
 
 constexpr std::uint32_t kPanels = 8;
-// A fold is bent over this share of a panel to each side of the line between two.
+// A fold bends over this share of a panel on each side of the line between two panels.
 constexpr double kBend = 0.1;
 constexpr double kLastFold_parts = 0.98;  // of a half turn
 
-// Of any angle, in turns.
+// Cosine and sine of any angle, given in turns.
 Turn of_turns(double turns) {
   return turn_by(2.0 * std::numbers::pi * (turns - std::floor(turns + 0.5)));
 }
 
-// Of a place along the cloth in panels: how far it is bent there, from -1 to 1; neighbors bend to opposite sides.
+// How far the cloth is bent at a place along it, given in panels: from -1 to 1; neighboring panels bend to opposite
+// sides.
 double bend_at(double panel) {
   if (panel >= kPanels) return -1.0;  // the last edge belongs to the last panel, an odd one
   const double line = std::floor(panel + 0.5);

@@ -6,7 +6,7 @@
 namespace broadside::datasets {
 namespace {
 
-// `length` along an axis drawn at random.
+// Sides with `length` along an axis drawn at random.
 Triple thin_sides(RandomStream& random, double length, double thickness) {
   Triple sides{thickness, thickness, thickness};
   sides[random.below(3)] = length;
@@ -31,7 +31,7 @@ std::vector<core::Box> needle_boxes(std::uint32_t n, std::uint64_t seed) {
 std::vector<core::Box> sliver_boxes(std::uint32_t n, std::uint64_t seed) {
   constexpr double kThinner = 1000.0;
   RandomStream random(seed);
-  // Two boxes of length 1 along different axes, two of three pairs, overlap within a volume of 1 * 1 * 2 / 1000.
+  // Two boxes of length 1 along different axes, as in two of three pairs, overlap within a volume of 1 * 1 * 2 / 1000.
   const double width = cube_root(2.0 / 3.0 * 2.0 / kThinner / 8.0 * n);
   std::vector<core::Box> boxes;
   boxes.reserve(n);

@@ -29,7 +29,7 @@ std::vector<core::Box> spiral_boxes(std::uint32_t n, std::uint64_t seed) {
 }
 
 std::vector<core::Box> cantor_boxes(std::uint32_t n, std::uint64_t seed) {
-  // Digits behind the point: 3^-8 is far below a side.
+  // Digits after the point: 3^-8 is far below a side.
   constexpr int kFine = 8;
   int whole = 0;
   for (std::uint64_t cubes = 1; cubes < n; cubes *= 8) ++whole;

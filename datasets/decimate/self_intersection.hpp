@@ -8,8 +8,8 @@
 
 namespace broadside::datasets {
 
-// Pairs of triangles that share more than the corner or edge that they have in common, found with exact predicates
-// (CGAL) on the vertices as they are. Error: CGAL is not built in (BROADSIDE_CGAL).
+// Number of pairs of triangles that meet beyond the corner or edge that they share, found with exact predicates (CGAL)
+// on the vertices as they are. Error: CGAL is not built in (BROADSIDE_CGAL).
 core::Result<std::uint64_t> self_intersecting_pairs(const core::Mesh& mesh);
 
 }  // namespace broadside::datasets

@@ -11,14 +11,14 @@
 namespace broadside::datasets {
 namespace {
 
-// Predicates are exact for the floats that the vertices are.
+// Predicates are exact for the vertices, which are floats.
 using PredicateKernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using FacetPoint = PredicateKernel::Point_3;
 using Segment = PredicateKernel::Segment_3;
 using Facet = PredicateKernel::Triangle_3;
 using Box = CGAL::Box_intersection_d::Box_with_info_d<double, 3, std::uint32_t>;
 
-// What two triangles share, by the places of their corners.
+// The corners that two triangles share, as indices of corners in each triangle.
 struct Shared {
   int count = 0;
   int in_a[3] = {};  // corners of a that are corners of b, then the others
@@ -46,7 +46,7 @@ Shared shared_corners(const core::Triangle& a, const core::Triangle& b) {
   return s;
 }
 
-// Corner k of a triangle.
+// Element k is corner k of a triangle.
 using Corners = std::array<FacetPoint, 3>;
 
 bool cross(const core::Triangle& ta, const core::Triangle& tb, const Corners& a, const Corners& b) {
@@ -57,11 +57,12 @@ bool cross(const core::Triangle& ta, const core::Triangle& tb, const Corners& a,
     case 0:
       return CGAL::do_intersect(fa, fb);
     case 1:
-      // Beyond the shared corner, the side opposite to it must meet the other triangle.
+      // Beyond the shared corner, they meet only when the side opposite to it, of one triangle, meets the other
+      // triangle.
       return CGAL::do_intersect(fb, Segment(a[s.in_a[1]], a[s.in_a[2]])) ||
              CGAL::do_intersect(fa, Segment(b[s.in_b[1]], b[s.in_b[2]]));
     case 2: {
-      // Beyond the shared side, they overlap only when folded flat onto each other.
+      // Beyond the shared side, they overlap only when they are folded flat onto each other.
       const FacetPoint& p = a[s.in_a[0]];
       const FacetPoint& q = a[s.in_a[1]];
       const FacetPoint& r = a[s.in_a[2]];
@@ -69,7 +70,7 @@ bool cross(const core::Triangle& ta, const core::Triangle& tb, const Corners& a,
       return CGAL::coplanar(p, q, r, t) && CGAL::coplanar_orientation(p, q, r, t) == CGAL::POSITIVE;
     }
     default:
-      return true;  // the same triangle twice
+      return true;  // both are the same triangle
   }
 }
 

@@ -21,8 +21,8 @@ std::string text_of(const Command& command) {
   return text;
 }
 
-// The last message of a program is usually why it failed. npm's last lines only name its log, so "error" lines go
-// first.
+// The last message of a program usually says why it failed. npm's last lines only name its log, so lines with "error"
+// are preferred.
 std::string complaint(const std::filesystem::path& messages) {
   std::ifstream file(messages);
   std::string last;

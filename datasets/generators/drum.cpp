@@ -17,9 +17,9 @@ constexpr SceneKnob kDrumKnobs[] = {
     {"depth", 2.2, 1.1, 100.0, "of the drum, in longest sides"},
 };
 
-constexpr double kPitch = 1.1;  // of the bodies at the start, in longest sides
+constexpr double kPitch = 1.1;  // distance of the bodies at the start, in longest sides
 
-// Centers in the plane of the drum's round side, from below, of cells that lie within the radius.
+// Centers of the grid cells within the radius, in the plane of the drum's round side, from below.
 std::vector<std::array<double, 2>> cells_within(double radius, double pitch) {
   std::vector<std::array<double, 2>> cells;
   const auto most = static_cast<int>(radius / pitch) + 1;
@@ -44,8 +44,8 @@ core::Scene drum(const GivenScene& given) {
   std::vector<std::array<double, 2>> cells = cells_within(radius, pitch);
   while (cells.size() * layers < given.count) cells = cells_within(radius *= 1.05, pitch);
 
-  // The wall: square cells of half a body. A cell's corners are up to 0.71 of its side from its center, so none reaches
-  // inside the radius.
+  // The wall: square cells of half a body. A cell's corners are up to 0.71 of its side from its center, so no cell
+  // reaches inside the radius.
   const double cell = 0.5 * longest;
   const auto most = static_cast<int>(radius / cell) + 4;
   for (int row = -most; row <= most; ++row)

@@ -24,7 +24,7 @@ core::Scene funnel(const GivenScene& given) {
   const double step = 0.5 * longest;
   const double outlet = 0.5 * given.knobs[0] * longest;
   const double floor_to_outlet = given.knobs[1];
-  // As many steps as make room for a cube of bodies, each as wide as high.
+  // Enough steps to make room for a cube of bodies; each step is as wide as high.
   const double wanted = 0.5 * pitch * std::max(2.0, cube_root(given.count) + 1.0);
   const auto steps = std::max(2, static_cast<int>((wanted - outlet) / step) + 1);
   for (int k = 0; k < steps; ++k) {

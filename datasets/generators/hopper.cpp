@@ -21,7 +21,7 @@ core::Scene hopper(const GivenScene& given) {
   const double longest = stage.longest();
   const double pitch = 1.1 * longest;
   const double thick = 0.5 * longest;
-  // Four times as high as wide, or as near as the count allows.
+  // The bin is four times as high as wide, or as near to that as the count allows.
   const auto columns = static_cast<std::uint32_t>(cube_root(given.count / 4.0)) + 1;
   const std::uint32_t layers = (given.count + columns * columns - 1) / (columns * columns);
   const double inner = 0.5 * columns * pitch;

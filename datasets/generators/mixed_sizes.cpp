@@ -38,7 +38,7 @@ core::Scene mixed_sizes(const GivenScene& given) {
   for (core::Body& body : scene.bodies) {
     const double u = random.unit();
     body.mesh = static_cast<std::uint32_t>(u * u * kSizes);
-    // 1 kg for a body of the asked-for size.
+    // A body of the requested size has 1 kg.
     body.inverse_mass = static_cast<float>(1.0 / (sizes[body.mesh] * sizes[body.mesh] * sizes[body.mesh]));
   }
   return scene;

@@ -16,7 +16,7 @@ core::Scene pyramid(const GivenScene& given) {
   const double pitch = (1.0 + given.knobs[0]) * longest;
   std::uint32_t base = 0;
   for (std::uint64_t room = 0; room < given.count; room += std::uint64_t{base} * base) ++base;
-  // Layer by layer upward, each one body narrower; the last ones may stay empty.
+  // Layer by layer upward, each one body narrower; the last layers may stay empty.
   std::uint32_t left = given.count;
   for (std::uint32_t layer = 0; left > 0; ++layer) {
     const std::uint32_t side = base - layer;

@@ -6,7 +6,7 @@ namespace broadside::datasets {
 namespace {
 
 constexpr SceneKnob kRandomMoveKnobs[] = {
-    // Above a half the grid of cells rarely fits, and the cube would grow without notice.
+    // Above a half, the grid of cells rarely fits, and the cube would grow without a notice.
     {"fill", 0.2, 1e-6, 0.5, "share of the cube's volume inside body boxes"},
     {"top_speed_m_s", 5.0, 0.0, 50.0, "speeds are uniform from 0 to this, m/s"},
 };

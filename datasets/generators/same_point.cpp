@@ -10,7 +10,7 @@ core::Scene same_point(const GivenScene& given) {
   Stage stage(given);
   stage.scene().gravity_m_s2 = {};
   for (std::uint32_t n = 0; n < given.count; ++n) stage.add_body({0.0, 0.0, 0.0});
-  // They leave along one axis, because centers at one point have no direction but the fixed one.
+  // They move apart along one axis, because for centers at one point only the fixed direction is defined.
   const double half = (given.count + 2.0) * stage.longest();
   return std::move(stage).finish({-half, -half, -half}, {half, half, half});
 }

@@ -1,5 +1,5 @@
-// The families of scenes, one source file each, and the one table of them. What the paper leaves open of its two scenes
-// is fixed as METHOD section 9 says.
+// The families of scenes, one source file each, and the one table of them. METHOD section 9 fixes what the paper leaves
+// open about its two scenes.
 #pragma once
 
 #include <span>
@@ -9,13 +9,13 @@
 
 namespace broadside::datasets {
 
-// Macros make declarations and table of one list, so that neither can lack a family.
+// Macros make the declarations and the table from one list, so that no family can be missing from either.
 #define SCENE_FAMILY(function) SceneFamily function();
 #include "datasets/generators/scene_families.inc"
 #undef SCENE_FAMILY
 
 std::span<const SceneFamily> scene_families();
-// Null when there is none of this name.
+// Null when there is no family with this name.
 const SceneFamily* find_family(std::string_view name);
 
 }  // namespace broadside::datasets

@@ -1,4 +1,4 @@
-// What one row of the table of scenes is: a name, options, and the function that makes the scene.
+// A row in the table of scenes: a name, options, and the function that makes the scene.
 #pragma once
 
 #include <cstdint>
@@ -19,12 +19,12 @@ struct SceneKnob {
   std::string_view what;
 };
 
-// What a family makes its scene from.
+// The inputs from which a family makes its scene.
 struct GivenScene {
-  std::shared_ptr<const core::Mesh> model;  // of the asked-for size, its box centered on the origin
+  std::shared_ptr<const core::Mesh> model;  // of the requested size, its box centered on the origin
   std::uint32_t count;
   std::uint64_t seed;
-  std::span<const double> knobs;  // in the order of the family's
+  std::span<const double> knobs;  // in the order of the family's knobs
 };
 
 struct SceneFamily {
@@ -34,7 +34,7 @@ struct SceneFamily {
   std::string_view what;
   std::uint32_t frames;  // unless told otherwise
   std::span<const SceneKnob> knobs;
-  // A pure function. Sets all but name, description, frames and seed.
+  // A pure function. Sets everything except name, description, frames and seed.
   core::Scene (*make)(const GivenScene& given);
 };
 

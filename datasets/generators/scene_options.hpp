@@ -1,4 +1,4 @@
-// What a caller may set about any scene, built in or from a file.
+// Options that a caller may set for any scene, built in or from a file.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +14,7 @@ struct SceneOptions {
   std::optional<std::uint64_t> seed;    // instead of the scene's own
 };
 
-// Broad-phase work goes to ten million boxes; one body is about 100 bytes of state.
+// Broad-phase scenes go up to ten million boxes; one body takes about 100 bytes of state.
 inline constexpr std::uint32_t kMaxBodies = 10'000'000;
 // METHOD section 9: each of the paper's runs is averaged over 3000 frames.
 inline constexpr std::uint32_t kPaperFrames = 3000;

@@ -15,7 +15,7 @@ constexpr double kCut_m = 0.125;
 std::shared_ptr<const core::Mesh> cut_box(std::array<double, 3> sides_m) {
   std::array<int, 3> segments;
   for (int k = 0; k < 3; ++k) segments[k] = static_cast<int>(sides_m[k] / kCut_m);
-  // The sides are literals of this folder; a wrong one ends the program in value().
+  // The sides are literals of this folder, so an invalid one ends the program in value().
   return std::make_shared<const core::Mesh>(std::move(box_mesh(sides_m, segments)).value());
 }
 

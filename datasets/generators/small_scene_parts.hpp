@@ -1,4 +1,4 @@
-// What the small scenes are put together from.
+// Parts from which the small scenes are built.
 #pragma once
 
 #include <array>
@@ -9,9 +9,8 @@
 
 namespace broadside::datasets {
 
-// A closed box with cuts of 1/8 m: the mean edge, and so theta, is about 0.14 m, while on a cube's face no point is
-// farther than 0.09 m from a vertex. So faces that touch are seen by vertex proximity wherever they touch (compare
-// E13).
+// A closed box cut every 1/8 m: the mean edge, and so theta, is about 0.14 m, while on a cube's face no point is
+// farther than 0.09 m from a vertex. So vertex proximity finds faces that touch, wherever they touch (compare E13).
 std::shared_ptr<const core::Mesh> cut_box(std::array<double, 3> sides_m);
 
 // A domain of 8 m around the origin, so the cells of a two-level octree are 2 m wide; 1 m cubes; no gravity.

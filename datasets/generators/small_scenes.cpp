@@ -17,10 +17,11 @@ void hang(Scene& scene, std::uint32_t body, Vec3 anchor, float stiffness_n_m, fl
 
 Scene errata_e1() {
   Scene scene = around_origin(60);
-  // w0 = 60 /s, g = 120 /s: stable below 0.0138 s, printed below 0.0236 s, and dt is 0.0167 s. Half a meter stretched.
+  // w0 = 60 /s, g = 120 /s: stable below 0.0138 s, by the printed limit below 0.0236 s, and dt is 0.0167 s. It starts
+  // stretched by half a meter.
   add(scene, {-2.0F, 0.5F, 0.0F}, {});
   hang(scene, 0, {-2.0F, 0.0F, 0.0F}, 3600.0F, 120.0F);
-  // Soft enough for either limit.
+  // Soft enough for both limits.
   add(scene, {2.0F, 0.5F, 0.0F}, {});
   hang(scene, 1, {2.0F, 0.0F, 0.0F}, 100.0F, 2.0F);
   return scene;
@@ -28,13 +29,13 @@ Scene errata_e1() {
 
 Scene errata_e2() {
   Scene scene = around_origin(120);
-  // In the cell 0..2 against a body across the face x = 2, which an octree stores one level up.
+  // A body in the cell 0..2 against a body across the face x = 2, which an octree stores one level up.
   add(scene, {0.9F, 1.0F, 1.0F}, {0.5F, 0.0F, 0.0F});
   add(scene, {2.0F, 1.0F, 1.0F}, {-0.5F, 0.0F, 0.0F});
-  // In the cell -2..0 against a body across the domain's middle, which an octree stores at the root.
+  // A body in the cell -2..0 against a body across the domain's middle, which an octree stores at the root.
   add(scene, {-1.15F, -1.0F, -1.0F}, {0.5F, 0.0F, 0.0F});
   add(scene, {0.0F, -1.0F, -1.0F}, {-0.5F, 0.0F, 0.0F});
-  // Two in one cell: the printed rule finds these, so it is not blind, only wrong.
+  // Two bodies in one cell: the printed rule finds this pair, so it does not miss all pairs.
   add(scene, {2.52F, -3.0F, -3.0F}, {0.25F, 0.0F, 0.0F});
   add(scene, {3.48F, -3.0F, -3.0F}, {-0.25F, 0.0F, 0.0F});
   return scene;
@@ -42,10 +43,10 @@ Scene errata_e2() {
 
 Scene errata_e3() {
   Scene scene = around_origin(120);
-  // 4 kg against 1 kg: printed, the heavier moves more.
+  // 4 kg against 1 kg: in the printed form, the heavier body moves more.
   add(scene, {-0.7F, -1.0F, 0.0F}, {0.5F, 0.0F, 0.0F}, 0.25F);
   add(scene, {0.7F, -1.0F, 0.0F}, {-0.5F, 0.0F, 0.0F}, 1.0F);
-  // A static body: printed, it takes the whole correction.
+  // A static body: in the printed form, it takes the whole correction.
   add(scene, {0.0F, 1.0F, 0.0F}, {}, kStatic);
   add(scene, {0.0F, 2.2F, 0.0F}, {0.0F, -1.0F, 0.0F});
   return scene;
@@ -55,7 +56,7 @@ Scene errata_e4() {
   Scene scene = around_origin(200);
   // The paper's step in its penetration study. At 1/60 s a contact passes through the 1 mm slop in one step.
   scene.dt_s = 0.001F;
-  // Approaching at 20 mm/s: they meet a few steps on, at most 0.02 mm deep, and stay there.
+  // Approaching at 20 mm/s: they meet a few steps later, at most 0.02 mm deep, and stay there.
   add(scene, {-0.50005F, -1.0F, 0.0F}, {0.01F, 0.0F, 0.0F});
   add(scene, {0.50005F, -1.0F, 0.0F}, {-0.01F, 0.0F, 0.0F});
   // At rest 0.4 mm inside a static body: nothing may move.
@@ -67,7 +68,7 @@ Scene errata_e4() {
 Scene errata_e5() {
   Scene scene = around_origin(120);
   constexpr float kPerGram = 1000.0F;  // inverse mass of 1 g
-  // Two bodies of 1 g meet at 0.1 m/s. Printed, the floor of 0.01 N s parts them at 20 m/s.
+  // Two bodies of 1 g meet at 0.1 m/s. In the printed form, the floor of 0.01 N s separates them at 20 m/s.
   add(scene, {-0.51F, -1.0F, 0.0F}, {0.05F, 0.0F, 0.0F}, kPerGram);
   add(scene, {0.51F, -1.0F, 0.0F}, {-0.05F, 0.0F, 0.0F}, kPerGram);
   // The same against a static body.
@@ -89,8 +90,8 @@ Scene errata_e6() {
 
 Scene errata_e8() {
   Scene scene = around_origin(20);
-  // A block of 5 x 5 x 5 cubes pressed into each other, each moving its own way: a body is in up to 26 contacts, so an
-  // order of writes that threads decide shows in the first frames.
+  // A block of 5 x 5 x 5 cubes pressed into each other, each moving in its own direction. A body is in up to 26
+  // contacts, so an order of writes that depends on threads shows in the first frames.
   for (int x = -2; x <= 2; ++x)
     for (int y = -2; y <= 2; ++y)
       for (int z = -2; z <= 2; ++z) {

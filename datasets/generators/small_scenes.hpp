@@ -1,4 +1,5 @@
-// Scenes of a few bodies with a purpose each: one per erratum of METHOD section 10, and pairs with closed-form answers.
+// Scenes of a few bodies, each with one purpose: one per erratum of METHOD section 10, and pairs with closed-form
+// answers.
 #pragma once
 
 #include <span>
@@ -16,7 +17,8 @@ struct SmallSceneRow {
   core::Scene (*make)();
 };
 
-// The table of them. Only SceneOptions::frames and seed apply; they need no mesh file and draw nothing at random.
+// The table of these scenes. Only SceneOptions::frames and seed apply; the scenes need no mesh file and draw nothing at
+// random.
 std::span<const SmallSceneRow> small_scenes();
 
 }  // namespace broadside::datasets

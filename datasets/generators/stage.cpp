@@ -51,14 +51,14 @@ void Stage::add_static_box(const Triple& low, const Triple& high) {
   std::array<int, 3> segments;
   const double cut = longest_ / kCutsOfModel;
   for (int k = 0; k < 3; ++k) {
-    // To float's precision, so that equal boxes at different places have equal sides.
+    // Rounded to float, so that equal boxes at different places have equal sides.
     sides[k] = double{static_cast<float>(high[k] - low[k])};
     center[k] = 0.5 * (low[k] + high[k]);
     segments[k] = static_cast<int>(std::clamp(std::ceil(sides[k] / cut - 1e-6), 1.0, kMostCuts));
   }
   const auto [entry, is_new] = box_meshes_.try_emplace(sides, 0U);
   if (is_new) {
-    // A side is a positive number here; a wrong one ends the program in value().
+    // The sides are positive here; an invalid one ends the program in value().
     core::Mesh mesh = std::move(box_mesh(sides, segments)).value();
     mesh.name = "part" + std::to_string(box_meshes_.size());
     scene_.parameters.theta_m =

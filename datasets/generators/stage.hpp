@@ -19,21 +19,21 @@ class Stage {
   // The model becomes mesh 0.
   explicit Stage(const GivenScene& given);
 
-  // Of the model's box.
+  // The longest side of the model's box.
   [[nodiscard]] double longest() const { return longest_; }
   [[nodiscard]] const Triple& sides() const { return sides_; }
 
-  // `center`: of its mesh's box. Mass 0 is a static body.
+  // `center`: of the mesh's box. Mass 0 means a static body.
   void add_body(const Triple& center, const Triple& velocity = {}, double mass_kg = 1.0, std::uint32_t mesh = 0);
   std::uint32_t add_mesh(std::shared_ptr<const core::Mesh> mesh);
 
-  // Its faces are cut so finely that vertex proximity sees them wherever they are touched: cuts of an eighth of the
+  // The box's faces are cut so finely that vertex proximity finds contacts anywhere on them: cuts of an eighth of the
   // model's longest side, and theta at least the mean edge of such a lattice (1.14 cuts, while no point of the face is
-  // farther than 0.71 cuts from a vertex). Boxes of equal sides share a mesh.
+  // farther than 0.71 cuts from a vertex). Boxes with equal sides share a mesh.
   void add_static_box(const Triple& low, const Triple& high);
 
   core::Scene& scene() { return scene_; }
-  // With this domain.
+  // Returns the scene with this domain.
   core::Scene finish(const Triple& low, const Triple& high) &&;
 
  private:

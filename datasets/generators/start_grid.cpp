@@ -37,12 +37,12 @@ std::uint64_t product(const Cells& c) {
   return c[0] * c[1] * c[2];
 }
 
-// Cells per axis: as few as hold `count`, each larger than the box; cells are taken from the tightest axis first. {}
+// Cells per axis: as few as hold `count`, each larger than the box; cells are removed from the tightest axis first. {}
 // when there is no such grid.
 Cells cells_for(double width, const Triple& sides, std::uint64_t count) {
   Cells cells{};
   for (int k = 0; k < 3; ++k) {
-    // At least 1 % of the side to spare, so that the shift within a cell is more than rounding.
+    // Leaves at least 1 % of the side free, so that the shift within a cell is more than rounding.
     cells[k] = static_cast<std::uint64_t>(std::min(width / (1.01 * sides[k]), 1e6));
     if (cells[k] == 0) return {};
   }
@@ -106,7 +106,7 @@ Start stacked_grid(const Box& body, std::uint32_t count, const StackedGrid& grid
 Start filled_cube(const Box& body, std::uint32_t count, const FilledCube& cube, std::uint64_t seed) {
   Triple sides = sides_of(body);
   const Triple middle = middle_of(body);
-  // A flat mesh has no volume for the fill, so it gets the thickness of a sheet.
+  // A flat mesh has no volume, so it counts as a thin sheet for the fill.
   const double longest = std::max({sides[0], sides[1], sides[2]});
   for (double& side : sides) side = std::max(side, 1e-3 * longest);
   const double volume = sides[0] * sides[1] * sides[2] * std::max<double>(count, 1.0) / cube.fill;
@@ -124,7 +124,7 @@ Start filled_cube(const Box& body, std::uint32_t count, const FilledCube& cube, 
   start.positions.reserve(count);
   start.velocities.reserve(count);
   for (std::uint32_t n = 0; n < count; ++n) {
-    // Fisher and Yates, stopped after the needed number of bodies.
+    // Fisher and Yates, stopped after the required number of bodies.
     std::swap(order[n], order[n + random.below(static_cast<std::uint32_t>(order.size() - n))]);
     const std::uint64_t at = order[n];
     const Cells cell{at % cells[0], at / cells[0] % cells[1], at / (cells[0] * cells[1])};

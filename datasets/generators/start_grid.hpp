@@ -1,4 +1,4 @@
-// Where bodies start: positions and velocities for the two scenes of METHOD section 9. Pure functions of their numbers.
+// Where bodies start: positions and velocities for the two scenes of METHOD section 9. Made by pure functions.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +16,7 @@ struct Start {
   core::Box domain;
 };
 
-// One body of mesh 0 at each position, and the domain.
+// Adds one body of mesh 0 at each position, and sets the domain.
 void place(core::Scene& scene, const Start& start);
 
 struct StackedGrid {
@@ -36,9 +36,9 @@ struct FilledCube {
   double top_speed_m_s = 5.0;  // speeds are uniform from 0 to this, in random directions
 };
 
-// Random move: a cube centered on the origin. Bodies start in distinct cells, chosen at random, of a grid whose cells
-// are larger than the box, shifted at random within their cells; so no two boxes overlap. Where the cube has no room
-// for such a grid (one long thin body, say), it grows by 1 % until it has, and the fill is lower.
+// Random move: a cube centered on the origin. Bodies start in distinct, randomly chosen cells of a grid whose cells are
+// larger than the box, shifted at random within their cells; so no two boxes overlap. Where the cube has no room for
+// such a grid (for one long thin body, say), it grows by 1 % at a time until it has, and the fill is lower.
 Start filled_cube(const core::Box& body, std::uint32_t count, const FilledCube& cube, std::uint64_t seed);
 
 }  // namespace broadside::datasets

@@ -23,7 +23,7 @@ core::Scene tower(const GivenScene& given) {
     const double z = random.between(-offset, offset);
     stage.add_body({x, n * pitch + 0.5 * stage.sides()[1], z});
   }
-  // Room to fall aside.
+  // Leaves room for bodies to fall to the side.
   return std::move(stage).finish({-4.0 * longest, 0.0, -4.0 * longest},
                                  {4.0 * longest, (given.count + 2) * pitch, 4.0 * longest});
 }

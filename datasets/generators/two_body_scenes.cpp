@@ -36,7 +36,7 @@ core::Scene resting() {
 
 core::Scene oblique() {
   core::Scene scene = around_origin(60);
-  // They meet on the x axis in step 31, when 31/60 s of 4 m/s have brought the first level with the second.
+  // They meet on the x axis in step 31, when after 31/60 s at 4 m/s the first body is level with the second.
   add(scene, {-1.0F, -2.0F, 0.0F}, {1.0F, 4.0F, 0.0F});
   add(scene, {1.0F, 0.0F, 0.0F}, {-1.0F, 0.0F, 0.0F});
   return scene;

@@ -1,4 +1,4 @@
-// One or two cubes of 1 m, whose motion has a closed form, which two_body_scenes_test.cpp derives.
+// One or two cubes of 1 m with a closed-form motion, which two_body_scenes_test.cpp derives.
 #pragma once
 
 #include "core/scene/scene.hpp"

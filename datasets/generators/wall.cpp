@@ -22,7 +22,7 @@ core::Scene wall(const GivenScene& given) {
   const std::uint32_t rows = (given.count + columns - 1) / columns;
   for (std::uint32_t n = 0; n < given.count; ++n) {
     const std::uint32_t row = n / columns;
-    // Every other row is half a body farther.
+    // Every other row is shifted by half a body.
     stage.add_body({(n % columns + 0.5 * (row % 2)) * sides[0], (row + 0.5) * sides[1], 0.0});
   }
   const double middle = 0.5 * (columns - 0.5) * sides[0];

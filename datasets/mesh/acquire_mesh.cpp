@@ -19,7 +19,7 @@ using core::Mesh;
 using core::Result;
 namespace fs = std::filesystem;
 
-// Procedural bodies are one fixed shape per name, whatever the scene's seed.
+// The shape of a procedural body depends only on its name, not on the scene's seed.
 constexpr std::uint64_t kShapeSeed = 1;
 
 std::string from_environment_variable(const char* name) {
@@ -45,7 +45,7 @@ Result<core::LoadedMesh> procedural(const MeshRow& row) {
   return loaded;
 }
 
-// The sum that this file must have: the published one, or the one written beside it when it was made.
+// The sum that this file must have: the published one, or the one that was written beside the file when it was made.
 std::string expected_sum(const MeshFile& file, const fs::path& path) {
   if (!file.sha256.empty()) return std::string(file.sha256);
   std::ifstream beside(path.string() + ".sha256");

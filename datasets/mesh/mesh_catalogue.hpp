@@ -1,4 +1,4 @@
-// The one table of meshes that scenes may name.
+// The one table of meshes that a scene's name may contain.
 #pragma once
 
 #include <cstdint>
@@ -10,19 +10,19 @@
 
 namespace broadside::datasets {
 
-// A model inside a package: what a file of the catalogue is made from.
+// A model inside a package, from which a file of the catalogue is made.
 struct MeshSource {
-  bool is_npm = false;  // otherwise apt
+  bool is_npm = false;  // otherwise an apt package
   std::string_view package;
-  std::string_view version;  // of which the sums were taken; the sum decides, not the version
+  std::string_view version;  // for which the sums were taken; the sum decides, not the version
   std::string_view member;   // in the package's file tree
-  std::string_view inner;    // in the archive that the member is; empty = the member is the model
+  std::string_view inner;    // path in the archive that the member is; empty = the member is the model
   std::string_view model_file;
   std::string_view sha256;  // of the model file
 };
 
 // A file that counts as this mesh. `sha256` is empty where the file is rebuilt on each machine and has no published
-// sum; it then has a sum of its own beside it, written when it was made.
+// sum; its own sum is then stored beside it when it is made.
 struct MeshFile {
   std::string_view file;
   std::string_view sha256;
@@ -31,28 +31,28 @@ struct MeshFile {
   std::uint32_t boundary_edges = 0;  // 0: closed; every file here is a manifold
   std::int32_t euler_characteristic = 2;
   double covering_radius = 0.0;  // rho of METHOD section 3, in the file's unit
-  bool is_stand_in = false;      // detail that the original does not have: reports say so
+  bool is_stand_in = false;      // has detail that the original does not have: reports say so
   std::string_view what;
-  const MeshSource* source = nullptr;  // what `fetch_mesh` makes it from; null = it cannot be made here
+  const MeshSource* source = nullptr;  // from which `fetch_mesh` makes it; null = it cannot be made here
 };
 
 struct MeshRow {
   std::string_view name;
   std::string_view what;
   std::span<const MeshFile> files;  // best first; the first file that exists is used
-  std::uint32_t vertices = 0;       // the size class: of the paper's model where it has one
+  std::uint32_t vertices = 0;       // the size class: the vertex count of the paper's model where it has one
   std::uint32_t triangles = 0;
   std::string_view credit;
   // How `fetch_mesh` obtains it; empty = it cannot be fetched.
   std::string_view fetched_from;
-  // Made here from a formula; needs no file.
+  // Made here from a formula, without a file.
   bool is_procedural = false;
 };
 
 std::span<const MeshRow> mesh_catalogue();
 std::vector<std::string_view> mesh_names();
 
-// Error: no such mesh, with the nearest known name.
+// Error: there is no such mesh; the error names the nearest known one.
 core::Result<const MeshRow*> find_mesh(std::string_view name);
 
 }  // namespace broadside::datasets

@@ -8,11 +8,12 @@ namespace broadside::datasets {
 namespace {
 
 constexpr std::uint32_t kLayers = 8;
-// In cells of the lattice: how far layers are apart, how far the sheet moves sideways, and how far vertices stray.
+// In lattice cells: the distance of layers, the sheet's sideways motion, and the random shift of vertices.
 constexpr double kGap = 2.0;
 constexpr double kSideways = 0.5;
 constexpr double kStray = 0.2;
-// A layer's bulge in gaps: two that meet at a crease are 2 gaps apart at their other ends, and bulge by 1.6 together.
+// A layer's bulge, in gaps: two layers that meet at a crease are 2 gaps apart at their other ends, and bulge by 1.6
+// together.
 constexpr double kBulge = 0.8;
 
 }  // namespace
@@ -31,7 +32,7 @@ continuous::MovingSurface folding_sheet(std::uint64_t triangles, std::uint64_t s
     const double along = static_cast<double>(i - layer * cells) * cell_m;
     const bool is_crease = i % cells == 0;
     for (std::uint32_t j = 0; j <= cells; ++j) {
-      // Within the layer, so that layers stay planes; creases stay straight.
+      // The shift stays within the layer, so that layers stay plane; creases stay straight.
       const double u = along + (is_crease ? 0.0 : cell_m * random.between(-kStray, kStray));
       const double y = j * cell_m + cell_m * random.between(-kStray, kStray);
       const double x = layer % 2 == 0 ? u : 1.0 - u;

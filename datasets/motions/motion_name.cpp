@@ -9,7 +9,7 @@
 namespace broadside::datasets {
 namespace {
 
-// A moving vertex and its triangles take 100 bytes: 2 GB, and candidates several times as much.
+// A moving vertex and its triangles take 100 bytes: 2 GB in all, and candidates several times as much.
 constexpr std::uint64_t kMostTriangles = 20'000'000;
 
 struct MotionSet {

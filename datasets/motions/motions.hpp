@@ -1,4 +1,4 @@
-// Surfaces that move for one step, from formulas: what candidates of continuous collision are found on.
+// Surfaces that move for one step, made from formulas: inputs for finding candidates of continuous collision.
 #pragma once
 
 #include <cstdint>
@@ -13,13 +13,14 @@
 namespace broadside::datasets {
 
 // A square sheet, folded like an accordion into eight layers of about `triangles` in all (16 at least). At the start
-// the layers are planes and meet at the creases alone. In the step they bulge by turns up and down, past each other
-// near the creases; and the sheet moves sideways by half a cell.
+// the layers are planes and meet only at the creases. During the step they bulge alternately up and down, past each
+// other near the creases, and the sheet moves sideways by half a cell.
 continuous::MovingSurface folding_sheet(std::uint64_t triangles, std::uint64_t seed);
 
-// Lumpy bodies of 320 triangles and up to 1 m, about `triangles` in all (640 at least), free of each other on a lattice
-// at the start. In the step each eight of them press together by a third of the way to their middle, and each body
-// turns and strays by up to 0.1 m besides. The vertices move along straight lines between the two placements.
+// Lumpy bodies of 320 triangles and up to 1 m, about `triangles` in all (640 at least), apart from each other on a
+// lattice at the start. During the step, every eight neighbors move together by a third of the way to their middle, and
+// each body also turns and moves randomly by up to 0.1 m. The vertices move along straight lines between the two
+// placements.
 continuous::MovingSurface moving_heap(std::uint64_t triangles, std::uint64_t seed);
 
 struct MotionRow {

@@ -11,16 +11,17 @@ namespace {
 
 constexpr std::uint64_t kTrianglesOfBody = 320;
 constexpr std::uint64_t kShapeCount = 8;
-// Bodies of 1 m are free of each other whatever way they are turned: at most 1 m from side to side in any direction.
+// At this pitch, bodies of 1 m are apart in any orientation: they measure at most 1 m from side to side in any
+// direction.
 constexpr double kPitch_m = 1.05;
-constexpr double kShrink = 0.35;  // of the way to the middle of each two by two by two places
+constexpr double kShrink = 0.35;  // share of the way to the middle of each group of two by two by two places
 constexpr double kStray_m = 0.1;
-constexpr double kMostTurn = 0.2;  // half of the angle's tangent
+constexpr double kMostTurn = 0.2;  // largest component of the rotation axis times the tangent of half the angle
 
 struct ScaledQuaternion {
   double w, x, y, z;
 
-  // Not a unit: divided by its square.
+  // The quaternion need not be a unit: the result is divided by its squared length.
   [[nodiscard]] core::Vec3d turned(core::Vec3d v) const {
     const core::Vec3d q{x, y, z};
     const core::Vec3d t = cross(q, v);

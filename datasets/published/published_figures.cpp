@@ -10,7 +10,7 @@
 namespace broadside::datasets {
 namespace {
 
-// These files are ours and hold neither quotes nor commas inside a field.
+// These files are our own: no field contains a quote or a comma.
 std::vector<std::string> split(std::string_view line) {
   std::vector<std::string> fields;
   for (;;) {

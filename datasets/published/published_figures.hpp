@@ -1,4 +1,4 @@
-// The paper's own figures, as printed, to be shown beside ours. Source and columns: README.md here.
+// The paper's own figures, as printed, to be shown next to ours. Source and columns: README.md in this folder.
 #pragma once
 
 #include <cstdint>
@@ -9,16 +9,16 @@
 
 namespace broadside::datasets {
 
-// One of the published tables. Columns as in the file's first line.
+// One of the published tables. The columns are those of the file's first line.
 struct PublishedTable {
   std::string_view name;  // "table5"
   std::vector<std::string> columns;
-  std::vector<std::vector<std::string>> rows;  // one text per column
+  std::vector<std::vector<std::string>> rows;  // one text for each column
 
-  // The text of a column; empty where the row is blank there. The column must exist.
+  // The text in a column; empty where the row is blank there. The column must exist.
   [[nodiscard]] const std::string& text(std::size_t row, std::string_view column) const;
   [[nodiscard]] double number(std::size_t row, std::string_view column) const;
-  // The row of a model and count; nothing when the paper has none.
+  // The row of a model and count; nothing when the paper has no such row.
   [[nodiscard]] std::optional<std::size_t> find(std::string_view model, std::uint32_t instances) const;
 };
 

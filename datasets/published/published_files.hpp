@@ -1,4 +1,4 @@
-// The files of this folder, compiled in by CMake so that a program without its source tree has them.
+// The files of this folder, compiled in by CMake so that a program without its source tree has them too.
 #pragma once
 
 #include <string_view>

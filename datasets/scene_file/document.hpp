@@ -1,4 +1,4 @@
-// A TOML file as a tree of values that know their line: what the readers of scene files work on.
+// A TOML file as a tree of values that keep their line number: the input of the readers of scene files.
 #pragma once
 
 #include <cstdint>
@@ -23,7 +23,7 @@ struct Node {
   std::vector<std::pair<std::string, Node>> members;  // kTable, in order of the keys
   std::vector<Node> items;                            // kArray
 
-  // Where Node is complete: clang 14 makes a pair of one that is not, when these are left to the class.
+  // Defined where Node is complete: if the class defines these, clang 14 instantiates a pair of an incomplete Node.
   Node();
   Node(const Node&);
   Node(Node&&) noexcept;
@@ -32,11 +32,12 @@ struct Node {
   ~Node();
 };
 
-// Larger files are refused: a body takes about 100 bytes, so this is the ten million bodies that a scene may have.
+// Larger files are refused: a body takes about 100 bytes of text, so this holds the ten million bodies that a scene may
+// have.
 inline constexpr std::uint64_t kMaxSceneFileBytes = std::uint64_t{1} << 30;
 
 // `kind` is what an error calls the file. Errors: missing, not a file, unreadable, too large, names or brackets that
-// nest too deeply (toml_nesting.hpp), or not TOML (both with file:line).
+// nest too deeply (toml_nesting.hpp), or not TOML (the last two with file:line).
 core::Result<Node> parse_toml(const std::filesystem::path& path, std::string_view kind = "scene file");
 
 }  // namespace broadside::datasets

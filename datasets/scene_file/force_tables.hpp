@@ -1,4 +1,4 @@
-// The tables of a scene file that say what pulls a body: [[spring]] and [[wrench]].
+// The tables of a scene file that describe forces on a body: [[spring]] and [[wrench]].
 #pragma once
 
 #include "core/scene/spring.hpp"
@@ -8,7 +8,7 @@
 
 namespace broadside::datasets {
 
-// Whether the body exists and may be pulled is core::check_scene's to say. After an error both return what is there.
+// core::check_scene checks whether the body exists and may be pulled. After an error both return what was read so far.
 core::Spring read_spring_table(const Node& node, FileErrors& errors);
 core::Wrench read_wrench_table(const Node& node, FileErrors& errors);
 

@@ -20,7 +20,7 @@ using core::Result;
 
 constexpr std::array<std::string_view, 5> kShapes{"box", "sphere", "capsule", "cylinder", "lumpy"};
 
-// A mesh's own error says what is wrong with it; this puts the scene file's line in front.
+// A mesh's error says what is wrong with it; this puts the scene file's line in front.
 std::optional<Mesh> taken(TableReader& table, std::string_view key, Result<Mesh> mesh) {
   if (mesh) return std::move(mesh).value();
   const core::Error& e = mesh.error();

@@ -10,8 +10,8 @@
 
 namespace broadside::datasets {
 
-// Exactly one of catalogue, file (relative to `folder`) and shape; at most one of longest_side_m and scale. Nothing
-// when there was an error, which is then in `errors`.
+// Exactly one of catalogue, file (relative to `folder`) and shape; at most one of longest_side_m and scale. Returns
+// nothing after an error, which is then in `errors`.
 std::optional<core::Mesh> read_mesh_table(const Node& table, const std::filesystem::path& folder,
                                           const MeshOptions& options, FileErrors& errors);
 

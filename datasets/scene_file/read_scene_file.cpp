@@ -99,7 +99,7 @@ class SceneFileReader {
       top.fail("motion", "there is no motion '" + word + "'", core::advise_name(word, known));
   }
 
-  // Where one body has an inertia of its own, every other gets that of its mesh.
+  // Where one body gives an inertia, every other body gets that of its mesh.
   void read_mass(TableReader& table, const Body& body) {
     std::vector<double> inertia;
     std::vector<double> center;
@@ -136,7 +136,7 @@ class SceneFileReader {
     }
   }
 
-  // TOML's whole numbers end at 2^63 - 1; a larger seed is written as a text of digits.
+  // TOML's whole numbers end at 2^63 - 1; a larger seed is written as a string of digits.
   void read_seed(TableReader& top) {
     constexpr auto kMost = static_cast<std::uint64_t>(std::numeric_limits<std::int64_t>::max());
     if (!top.is_text("seed")) {
@@ -195,7 +195,7 @@ class SceneFileReader {
     scene_.meshes.push_back(std::make_shared<const core::Mesh>(std::move(*mesh)));
   }
 
-  // The index of the mesh that the table names; a name is optional when there is only one mesh.
+  // The index of the mesh that the table names; the name is optional when there is only one mesh.
   std::uint32_t mesh_of(TableReader& table) {
     std::string name;
     const bool is_named = table.text("mesh", name);
@@ -213,7 +213,7 @@ class SceneFileReader {
     return 0;
   }
 
-  // The keys that generated and written bodies share.
+  // Reads the keys that generated and written bodies share.
   Body body_of(TableReader& table) {
     Body body;
     body.material = material_;
@@ -250,15 +250,15 @@ class SceneFileReader {
     if (is_fast) scene_.is_fast.back() = 1;
   }
 
-  // Rounded once from the normalized doubles; written digits are rarely a unit quaternion to the last bit.
+  // Rounded once from the normalized doubles; the written digits are rarely an exact unit quaternion.
   core::Quat unit(TableReader& table, const std::vector<double>& q) {
     const double norm = std::sqrt((q[0] * q[0] + q[1] * q[1]) + (q[2] * q[2] + q[3] * q[3]));
-    // More than a part in a thousand is no rounding of written digits.
+    // More than a part in a thousand is not the rounding of written digits.
     if (!(std::abs(norm - 1.0) <= 1e-3)) {
       table.fail("orientation_wxyz", "orientation_wxyz is not a unit quaternion", "normalize w, x, y, z");
       return {};
     }
-    // Already a unit quaternion in float: taken as it is, so that a written scene reads back to the same bits.
+    // Already a unit quaternion in float: taken unchanged, so that a written scene reads back to the same bits.
     const double n = std::abs(norm * norm - 1.0) <= 4.0 * 0x1p-24 ? 1.0 : norm;
     return {static_cast<float>(q[0] / n), static_cast<float>(q[1] / n), static_cast<float>(q[2] / n),
             static_cast<float>(q[3] / n)};
@@ -289,7 +289,7 @@ class SceneFileReader {
     } else if (kind == "filled-cube") {
       table.positive("fill", cube.fill);
       table.number("top_speed_m_s", cube.top_speed_m_s);
-      // Above a half the grid of cells rarely fits, and the cube would grow without notice.
+      // Above a half, the grid of cells rarely fits, and the cube would grow without a notice.
       if (!(cube.fill <= 0.5)) table.fail("fill", "fill is above 0.5", "give a share of the volume up to 0.5");
       if (!(cube.top_speed_m_s >= 0.0)) table.fail("top_speed_m_s", "top_speed_m_s is negative", "give 0 or more");
     } else if (!errors_.first) {
@@ -333,7 +333,7 @@ class SceneFileReader {
     adopt(made);
   }
 
-  // Takes over bodies and their meshes, and every setting that this file does not give.
+  // Takes bodies and their meshes from the made scene, and every setting that this file does not give.
   void adopt(const Scene& made) {
     std::vector<std::uint32_t> index;
     for (const auto& mesh : made.meshes) {
@@ -363,7 +363,7 @@ class SceneFileReader {
     has_domain_ = true;
   }
 
-  // check_scene says "NAME: body 3"; the line of that place is put before it.
+  // check_scene says "NAME: body 3"; this puts the line of that body in front.
   Result<Scene> checked() {
     const core::Status status = core::check_scene(scene_);
     if (status) return std::move(scene_);

@@ -1,4 +1,5 @@
-// Typed reading of one table of a scene file: wrong types, numbers out of range and unknown keys become the one error.
+// Typed reading of one table of a scene file. Wrong types, numbers out of range and unknown keys are reported as the
+// file's error.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +14,7 @@
 
 namespace broadside::datasets {
 
-// The file's name and its first error; all readers of its tables share it.
+// The file's name and its first error, shared by all readers of its tables.
 struct FileErrors {
   std::string file;
   std::optional<core::Error> first;
@@ -21,8 +22,8 @@ struct FileErrors {
   void add(std::uint32_t line, std::string what, std::string advice);
 };
 
-// Each getter leaves its target alone when the key is absent, and reports false then and on errors. finish() makes
-// every key that was never asked for an error that names the nearest key that was.
+// Each getter leaves its target unchanged and returns false when the key is absent or wrong. finish() reports every key
+// that was never asked for as an error that names the nearest key that was.
 class TableReader {
  public:
   // `what` names the table in errors: "body", "the scene".
@@ -33,18 +34,18 @@ class TableReader {
   // Whole numbers in low ... high.
   bool whole(std::string_view key, std::uint64_t low, std::uint64_t high, std::uint64_t& out);
   bool whole(std::string_view key, std::uint32_t low, std::uint32_t high, std::uint32_t& out);
-  // Finite numbers; whole ones count too. As float: rounded once, finite after that.
+  // Finite numbers, including whole ones. For a float, the number is rounded once and must be finite after that.
   bool number(std::string_view key, double& out);
   bool number(std::string_view key, float& out);
-  // Finite and above zero.
+  // Requires a finite number above zero.
   bool positive(std::string_view key, double& out);
   bool numbers(std::string_view key, std::size_t count, std::vector<double>& out);
   bool vec3(std::string_view key, core::Vec3& out);
   bool texts(std::string_view key, std::vector<std::string>& out);
 
-  // Null when absent or when it is something else (then an error).
+  // Null when the key is absent or is something else (then with an error).
   const Node* table(std::string_view key);
-  // The tables of [[key]]; empty when absent.
+  // The tables of [[key]]; empty when the key is absent.
   std::vector<const Node*> tables(std::string_view key);
 
   [[nodiscard]] bool has(std::string_view key) const;

@@ -5,7 +5,7 @@
 namespace broadside::datasets {
 namespace {
 
-// The offset behind the string that begins at `at`: "...", '...', or either of them three times for several lines.
+// The offset after the string that begins at `at`: "..." or '...', or either with three quotes over several lines.
 std::size_t behind_string(std::string_view text, std::size_t at, std::uint32_t& line) {
   const char quote = text[at];
   const std::string_view three = quote == '"' ? "\"\"\"" : "'''";
@@ -24,7 +24,7 @@ std::size_t behind_string(std::string_view text, std::size_t at, std::uint32_t& 
     if (text[at] != quote) continue;
     if (!has_lines) return at + 1;
     if (!text.substr(at).starts_with(three)) continue;
-    // Up to two quotes more belong to the text.
+    // Up to two more quotes belong to the text.
     at += 3;
     for (int more = 0; more < 2 && at < text.size() && text[at] == quote; ++more) ++at;
     return at;
@@ -51,7 +51,7 @@ TomlNesting toml_nesting(std::string_view text) {
     }
     if (c == '[' || c == '{') nesting.brackets = std::max(nesting.brackets, ++depth);
     if ((c == ']' || c == '}') && depth > 0) --depth;
-    // A name ends where none of its characters can stand.
+    // A name ends at any character that it cannot contain.
     if (c == '.') nesting.name_parts = std::max(nesting.name_parts, ++parts);
     if (c == '=' || c == ',' || c == '[' || c == ']' || c == '{' || c == '}' || c == '\n') parts = 1;
     if (nesting.brackets > kDeepestToml || nesting.name_parts > kMostNameParts) {

@@ -1,5 +1,5 @@
-// How deep does a TOML text nest? Asked before the parser, which makes a table within a table for each part of a dotted
-// name and frees them by recursion, so that a long name alone runs out of stack.
+// How deeply does a TOML text nest? Checked before the parser, which makes a table within a table for each part of a
+// dotted name and frees them by recursion, so that a single long name exhausts the stack.
 #pragma once
 
 #include <cstddef>
@@ -9,17 +9,17 @@
 namespace broadside::datasets {
 
 // Scene and campaign files use three levels of brackets and names of two parts.
-inline constexpr std::size_t kDeepestToml = 32;    // brackets open at one place
-inline constexpr std::size_t kMostNameParts = 32;  // of one dotted name
+inline constexpr std::size_t kDeepestToml = 32;    // brackets that are open at one place
+inline constexpr std::size_t kMostNameParts = 32;  // parts of one dotted name
 
 struct TomlNesting {
   std::size_t brackets = 0;
   std::size_t name_parts = 0;
-  std::uint32_t line = 0;  // 1-based, of the first place that is past a limit; 0 where none is
+  std::uint32_t line = 0;  // 1-based line of the first place beyond a limit; 0 where there is none
 };
 
-// Reads to the first place past a limit. Text within strings and comments does not count. What is no TOML is for the
-// parser to refuse.
+// Reads up to the first place beyond a limit. Text within strings and comments does not count. Rejecting text that is
+// not TOML is left to the parser.
 TomlNesting toml_nesting(std::string_view text);
 
 }  // namespace broadside::datasets

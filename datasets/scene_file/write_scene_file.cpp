@@ -14,7 +14,8 @@ namespace {
 using core::Scene;
 using core::Vec3;
 
-// Nine significant digits name every float and 17 every double exactly. A point keeps -0 from becoming the integer 0.
+// Nine significant digits identify every float and 17 every double exactly. A decimal point keeps -0 from becoming the
+// integer 0.
 std::string digits(double value, int significant) {
   char buffer[40];
   std::snprintf(buffer, sizeof buffer, "%.*g", significant, value);
@@ -57,7 +58,7 @@ std::string parameters(const core::Parameters& p) {
          "\ntheta_m = " + number(p.theta_m) + "\nhash_cell_m = " + number(p.hash_cell_m) + "\n";
 }
 
-// Names in a scene need not differ; in a file they are what bodies refer to.
+// In a scene, names need not be unique; in a file, bodies refer to them, so they must be.
 std::string mesh_name(std::size_t m) {
   return "mesh" + std::to_string(m);
 }
@@ -79,7 +80,7 @@ std::string body(const core::Body& b, const core::MassProperties* m, bool is_fas
             number(b.orientation.y) + ", " + number(b.orientation.z) + "]\n";
   text += "velocity_m_s = " + vec3(b.velocity) + "\n";
   text += "angular_velocity_rad_s = " + vec3(b.angular_velocity) + "\n";
-  // 1 / w is off by 2^-53 of itself, so its inverse rounds to the float w again.
+  // 1 / w is off by a relative 2^-53, so its inverse rounds back to the float w.
   text += b.inverse_mass > 0.0F ? "mass_kg = " + digits(1.0 / double{b.inverse_mass}, 17) + "\n" : "static = true\n";
   if (m != nullptr && b.inverse_mass > 0.0F) text += mass(*m);
   if (is_fast) text += "fast = true\n";
@@ -128,7 +129,8 @@ core::Status write_scene_file(const Scene& scene, const std::filesystem::path& p
       return s;
   if (core::Status s = core::write_whole_file(path, whole_scene(scene, stem)); !s) return s;
 
-  // Loading cleans meshes: one with degenerate triangles or repeated points would come back as another.
+  // Checked by reading it again: loading cleans meshes, so a mesh with degenerate triangles or repeated points would
+  // change.
   const core::Result<Scene> again = read_scene_file(path, SceneOptions{.meshes = {}, .frames = {}, .seed = {}});
   if (!again) return again.error();
   if (core::scene_digest(again.value()) != core::scene_digest(scene))

@@ -15,7 +15,7 @@ class BoxBuilder {
  public:
   BoxBuilder(std::array<double, 3> sides_m, Lattice segments) : sides_(sides_m), segments_(segments) {}
 
-  // The two faces across `axis`, each cell as two triangles that turn outward.
+  // The two faces across `axis`, each cell as two triangles that face outward.
   void add_faces(int axis) {
     const int u = (axis + 1) % 3;
     const int w = (axis + 2) % 3;
@@ -39,7 +39,7 @@ class BoxBuilder {
     const std::uint32_t b = at(1, 0);
     const std::uint32_t c = at(1, 1);
     const std::uint32_t d = at(0, 1);
-    // u x w = +axis, so a b c d turns counterclockwise seen from above the upper face.
+    // u x w = +axis, so a b c d runs counterclockwise seen from outside the upper face.
     if (upper) {
       mesh_.triangles.push_back({a, b, c});
       mesh_.triangles.push_back({a, c, d});

@@ -1,4 +1,4 @@
-// A box whose faces are cut into a lattice of vertices, so that vertex proximity can detect contacts of its faces.
+// A box whose faces are cut into a lattice of vertices, so that vertex proximity can detect contacts on its faces.
 #pragma once
 
 #include <array>

@@ -10,7 +10,7 @@
 namespace broadside::datasets {
 namespace {
 
-// Lattice points of the octahedron |i| + |j| + |k| = f; the rim k = 0 exists once for each cap.
+// Lattice points of the octahedron |i| + |j| + |k| = f; each cap has its own copy of the rim k = 0.
 class CapsuleBuilder {
  public:
   CapsuleBuilder(double radius_m, double half_length_m, int frequency)
@@ -43,7 +43,7 @@ class CapsuleBuilder {
     mesh_.triangles.push_back(turns ? core::Triangle{a, c, b} : core::Triangle{a, b, c});
   }
 
-  // i and j run outward from the pole on their signs; k is what is left.
+  // i and j are distances from the pole along the two signed axes; k is the remainder.
   void add_octant(int sx, int sy, int up) {
     const bool turns = sx * sy * up < 0;
     const auto at = [&](int i, int j) { return vertex(sx * i, sy * j, up * (f_ - i - j), up); };

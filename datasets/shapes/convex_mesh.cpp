@@ -7,8 +7,8 @@
 namespace broadside::datasets {
 namespace {
 
-// Six times the volume of the tetrahedron: positive when d is in front of the triangle a b c. Of float corners in
-// double; points on an ellipsoid lie in one plane only by chance.
+// Six times the volume of the tetrahedron: positive when d is in front of the triangle a b c. Float corners, computed
+// in double. Points on an ellipsoid lie in one plane only by chance.
 double volume(core::Vec3 a, core::Vec3 b, core::Vec3 c, core::Vec3 d) {
   const auto minus = [](core::Vec3 p, core::Vec3 q) {
     return std::array<double, 3>{double(p.x) - q.x, double(p.y) - q.y, double(p.z) - q.z};
@@ -19,7 +19,8 @@ double volume(core::Vec3 a, core::Vec3 b, core::Vec3 c, core::Vec3 d) {
   return w[0] * (u[1] * v[2] - u[2] * v[1]) + w[1] * (u[2] * v[0] - u[0] * v[2]) + w[2] * (u[0] * v[1] - u[1] * v[0]);
 }
 
-// A triangle is a face of the hull when no corner is in front of it. All are tried: corners are few.
+// A triangle is a face of the hull when no corner is in front of it. All triangles are tried, because there are few
+// corners.
 bool is_face(const core::Mesh& mesh, const core::Triangle& t) {
   for (std::uint32_t k = 0; k < mesh.vertices.size(); ++k) {
     if (k == t[0] || k == t[1] || k == t[2]) continue;

@@ -29,7 +29,7 @@ double dot(Point p, Point q) {
   return (p.x * q.x + p.y * q.y) + p.z * q.z;
 }
 
-// The icosahedron's corners are the cyclic permutations of (0, +-1, +-golden ratio); faces turn outward.
+// The icosahedron's corners are the cyclic permutations of (0, +-1, +-golden ratio); its triangles face outward.
 constexpr int kCorners = 12;
 constexpr int kFaces = 20;
 constexpr std::array<std::array<int, 3>, kFaces> kFaceCorners{
@@ -53,7 +53,7 @@ std::array<Point, kCorners> corners() {
            {-g, 0, 1}}};
 }
 
-// Numbers the lattice points so that faces share those on their edges, and keeps each point's direction.
+// Numbers the lattice points so that faces share the points on their edges, and stores each point's direction.
 class GeodesicLattice {
  public:
   explicit GeodesicLattice(int frequency) : f_(frequency), corner_(corners()) {

@@ -1,4 +1,4 @@
-// Spheres and lumpy bodies: an icosahedron whose faces are cut into a triangle lattice and blown up.
+// Spheres and lumpy bodies: an icosahedron whose faces are cut into triangle lattices and projected outward.
 #pragma once
 
 #include <cstdint>

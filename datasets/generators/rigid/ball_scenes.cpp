@@ -10,7 +10,7 @@ namespace {
 using core::Scene;
 
 constexpr double kBallStep_s = 1.0 / 480.0;
-constexpr double kBallMore = 1.01;  // a threshold and 1 %
+constexpr double kBallMore = 1.01;  // 1 % above a threshold
 constexpr double kBallRadius_m = 0.5;
 
 Scene slip_to_roll() {
@@ -36,7 +36,7 @@ Scene slips() {
   return on_slope(1.0 / 7.0 / kBallMore);
 }
 
-// No gravity, so that the one impact is all there is: (3, -4) m/s on the floor with e = 1/2.
+// No gravity, so that there is only one impact: (3, -4) m/s on the floor with e = 1/2.
 Scene oblique_bounce(double friction) {
   Scene scene = rigid_scene("oblique-bounce", kBallStep_s, 0.5);
   scene.gravity_m_s2 = {};
@@ -52,7 +52,7 @@ Scene oblique_slips() {
   return oblique_bounce(1.0 / 7.0 / kBallMore);
 }
 
-// Rests after sqrt(2 h / g) (1 + e) / (1 - e) = 4.5 s; every approach bounces.
+// Comes to rest after sqrt(2 h / g) (1 + e) / (1 - e) = 4.5 s; every impact bounces.
 Scene bounce() {
   Scene scene = rigid_scene("bounce", kBallStep_s, 4.0);
   add_ball(scene, kBallRadius_m, {0, 2.5F, 0});

@@ -22,7 +22,7 @@ Scene tumbling() {
   return brick(10.0);
 }
 
-// Symmetric about y: the axis goes round L at L / I1.
+// Symmetric about y: the axis rotates about L at L / I1.
 Scene top() {
   Scene scene = rigid_scene("top", 0.001, 2.0);
   scene.gravity_m_s2 = {};
@@ -39,7 +39,7 @@ Scene thrown() {
   return scene;
 }
 
-// F / m = (3, 2, -1) m/s^2 beside gravity.
+// F / m = (3, 2, -1) m/s^2 in addition to gravity.
 Scene pushed() {
   Scene scene = rigid_scene("flight", 1.0 / 240.0, 1.5);
   add_ball(scene, 0.5, {0, 25, 0}, 2.0).velocity = {1, 2, 0};

@@ -19,7 +19,7 @@ Scene weightless(std::string answer, double seconds) {
   return scene;
 }
 
-// A smooth rod at 30 degrees meets the floor with its lower end.
+// The lower end of a smooth rod at 30 degrees hits the floor.
 Scene rod() {
   Scene scene = weightless("rod-impact", 0.25);
   constexpr double kLength = 2.0;
@@ -33,7 +33,7 @@ Scene rod() {
   return scene;
 }
 
-// Elastic smooth balls of one mass; the first comes with 2 m/s along x, `offset_m` beside the center of the second.
+// Elastic smooth balls of one mass; the first moves at 2 m/s along x, `offset_m` beside the center of the second.
 Scene two_balls(float offset_m) {
   Scene scene = weightless("billiards", 1.0);
   add_ball(scene, kImpactRadius_m, {-1, 10, 0}).velocity = {2, 0, 0};
@@ -48,7 +48,8 @@ Scene off_center() {
   return two_balls(0.25F);
 }
 
-// Onto two that touch each other, in the middle: -1/5 of the speed is left, each takes 2/5 sqrt(3).
+// A ball hits two balls that touch each other, in the middle: it keeps -1/5 of its speed, and each of them takes 2/5
+// sqrt(3).
 Scene three_balls() {
   Scene scene = weightless("three-balls", 1.0);
   add_ball(scene, kImpactRadius_m, {-1, 10, 0}).velocity = {2, 0, 0};

@@ -1,4 +1,4 @@
-// Bodies so fast that they would be past each other within a step.
+// Bodies so fast that they would pass each other within a step.
 #include <array>
 
 #include "datasets/generators/rigid/rigid_parts.hpp"
@@ -9,8 +9,8 @@ namespace {
 
 using core::Scene;
 
-// 3.3 m a step against balls of 0.1 m, from where steps of 1/60, 1/120, 1/240 and 1/480 s all end beside the other
-// ball. The velocity cap of the method is out of the way.
+// 3.3 m a step against balls of 0.1 m. The start is such that steps of 1/60, 1/120, 1/240 and 1/480 s all end beside
+// the other ball. The velocity cap of the method is set high enough not to act.
 Scene fast_balls() {
   Scene scene = rigid_scene("billiards", 1.0 / 60.0, 0.2);
   scene.gravity_m_s2 = {};
@@ -21,7 +21,7 @@ Scene fast_balls() {
   return scene;
 }
 
-// A needle spins about its middle; its tip would swing through a plate of 2 cm within a step.
+// A needle spins about its middle; without a sweep its tip would swing through a plate of 2 cm within a step.
 Scene needle() {
   Scene scene = rigid_scene("first-touch", 1.0 / 60.0, 0.2);
   scene.gravity_m_s2 = {};
@@ -31,8 +31,8 @@ Scene needle() {
   return scene;
 }
 
-// A bullet of 20 mm and 8 g at 300 m/s meets ten free cards of 3 mm and 5 g, one behind the other: 1.25 m a step. Whom
-// it strikes is as fast: all are flagged.
+// A bullet of 20 mm and 8 g at 300 m/s hits ten free cards of 3 mm and 5 g, one behind the other: 1.25 m a step. A card
+// that it strikes becomes as fast, so all bodies are flagged.
 Scene bullet() {
   Scene scene = rigid_scene("reported", 1.0 / 240.0, 0.1);
   scene.gravity_m_s2 = {};

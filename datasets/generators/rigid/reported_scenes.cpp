@@ -1,4 +1,4 @@
-// Scenes without an answer that engines agree on: what they do is reported, and laws of mechanics judge it.
+// Scenes for which engines agree on no answer: the outcome is reported, and laws of mechanics judge it.
 #include <array>
 
 #include "datasets/circle.hpp"
@@ -10,7 +10,7 @@ namespace {
 
 using core::Scene;
 
-// A rough rod slides on its tip with mu = 2, above the 4/3 of a thin rod from which rigid bodies have no solution.
+// A rough rod slides on its tip with mu = 2. From 4/3 on, a thin rod has no solution as a rigid body.
 Scene painleve() {
   Scene scene = rigid_scene("reported", 1.0 / 240.0, 1.0);
   constexpr double kLength = 1.0;
@@ -33,15 +33,15 @@ Scene cradle() {
   return scene;
 }
 
-// A coin that rolls on its rim, leaning: w^2 sin(alpha) = 4 g / a while it rolls.
+// A leaning coin that rolls on its rim: w^2 sin(alpha) = 4 g / a while it rolls.
 Scene disk() {
   Scene scene = rigid_scene("reported", 1.0 / 1000.0, 2.0);
   constexpr double kRadius = 0.5;
   constexpr double kHalf = 0.02;
-  const Turn lean = turn_by(3.14159265358979323846 / 6.0);  // from the floor
+  const Turn lean = turn_by(3.14159265358979323846 / 6.0);  // angle from the floor
   const double height = kRadius * lean.sine + kHalf * lean.cosine;
   core::Body& b = add_cylinder(scene, kRadius, kHalf, {0, static_cast<float>(height), 0});
-  // Its axis, z, turned about x until it leans; the axis goes round the vertical at w.
+  // Its axis, z, is rotated about x to lean; the axis rotates about the vertical at w.
   const double half_angle = 0.5 * (3.14159265358979323846 / 2.0 - 3.14159265358979323846 / 6.0);
   const Turn half = turn_by(-half_angle);
   b.orientation = {static_cast<float>(half.cosine), static_cast<float>(half.sine), 0, 0};

@@ -13,7 +13,7 @@ namespace broadside::datasets {
 namespace {
 
 core::Body& add_body(core::Scene& scene, core::Result<core::Mesh> mesh, core::Vec3 position, double mass_kg) {
-  // Sizes are literals of this folder; a wrong one ends the program in value(). Equal meshes are one.
+  // Sizes are literals of this folder, so an invalid one ends the program in value(). Equal meshes are shared.
   auto made = std::make_shared<const core::Mesh>(std::move(mesh).value());
   const auto known = std::find_if(scene.meshes.begin(), scene.meshes.end(),
                                   [&](const auto& m) { return m->vertices == made->vertices; });
@@ -68,7 +68,7 @@ core::Body& add_prism(core::Scene& scene, const std::vector<std::array<double, 2
   std::array<double, 2> high = low;
   for (const auto& c : corners_m)
     for (std::size_t k = 0; k < 2; ++k) low[k] = std::min(low[k], c[k]), high[k] = std::max(high[k], c[k]);
-  // The middle is rounded first, so that corners come out where they were asked for.
+  // The middle is rounded first, so that the corners get the requested coordinates.
   const core::Vec3 middle = rounded(0.5 * (low[0] + high[0]), 0.5 * (low[1] + high[1]), 0.0);
   core::Mesh mesh;
   mesh.name = "prism";

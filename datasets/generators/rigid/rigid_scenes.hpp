@@ -1,4 +1,4 @@
-// Scenes whose outcome is known in closed form, one file a group, and the one list of the groups.
+// Scenes whose outcome is known in closed form, one file per group, and the one list of the groups.
 #pragma once
 
 #include <span>
@@ -8,12 +8,12 @@
 
 namespace broadside::datasets {
 
-// Macros make declarations and table of one list.
+// Macros make the declarations and the table from one list.
 #define RIGID_SCENES(function) std::span<const SmallSceneRow> function();
 #include "datasets/generators/rigid/rigid_scenes.inc"
 #undef RIGID_SCENES
 
-// All of them: names begin with "rigid:".
+// All scenes of all groups: their names begin with "rigid:".
 std::span<const SmallSceneRow> rigid_scenes();
 
 }  // namespace broadside::datasets

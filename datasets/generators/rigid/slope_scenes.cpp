@@ -11,8 +11,8 @@ namespace {
 using core::Scene;
 
 constexpr double kSlopeStep_s = 1.0 / 240.0;
-constexpr double kSlopeMore = 1.01;  // a threshold and 1 %
-constexpr double kG = 9.81;          // of kGravity
+constexpr double kSlopeMore = 1.01;  // 1 % above a threshold
+constexpr double kG = 9.81;          // magnitude of kGravity
 
 // A flat box on a plane of this slope.
 Scene on_slope(std::string answer, double tangent, double friction, std::array<double, 3> sides, double seconds) {
@@ -75,7 +75,7 @@ Scene slide_heading() {
   return scene;
 }
 
-// Smooth wall x = 0 and floor; leans at 60 degrees and starts at rest. Its lower corners touch.
+// Smooth wall x = 0 and floor; the ladder leans at 60 degrees and starts at rest. Its lower corners touch them.
 Scene ladder() {
   Scene scene = rigid_scene("ladder", 1.0 / 1000.0, 1.0);
   constexpr double kLength = 2.0;

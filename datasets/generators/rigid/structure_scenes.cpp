@@ -1,4 +1,4 @@
-// Bodies on each other that stand or fall. Pairs lie 1 % to either side of a threshold.
+// Stacked bodies that stand or fall. Pairs lie 1 % to either side of a threshold.
 #include <array>
 #include <cmath>
 
@@ -13,7 +13,7 @@ using core::Scene;
 
 constexpr double kStructureStep_s = 1.0 / 60.0;
 constexpr double kMinute_s = 60.0;
-constexpr double kStructureMore = 1.01;  // a threshold and 1 %
+constexpr double kStructureMore = 1.01;  // 1 % above a threshold
 constexpr double kPi = 3.14159265358979323846;
 
 Scene blocks_stacked(std::uint32_t count, double top_mass_kg) {
@@ -33,9 +33,10 @@ Scene heavy_on_light() {
   return blocks_stacked(2, 1000.0);
 }
 
-// Two cards cut upright where they meet and level where they stand, 25 degrees from upright. With the push at the top
-// of the joint and the floor's at the inner edge, the least that statics allows, the floor's friction is
-// (x_foot - x_center) / y_top of the weight: L/2 tan of the angle for thin cards.
+// Two cards that lean at 25 degrees from the vertical, cut vertically where they meet and horizontally where they
+// stand. The least friction that statics allows at the floor has the contact force at the top of the joint and the
+// floor's force at the inner edge. It is (x_foot - x_center) / y_top of the weight: half the tangent of the angle for
+// thin cards.
 Scene tent(double share, std::string answer) {
   constexpr double kLength = 1.0;
   constexpr double kThick = 0.02;
@@ -44,7 +45,7 @@ Scene tent(double share, std::string answer) {
   const double far_foot = foot + kThick / lean.cosine;
   const double under = kLength * lean.cosine;
   const double top = under + kThick / lean.sine;
-  // The center of the trapezoid: of the outer triangle less the inner one, which are of one shape.
+  // The center of the trapezoid: the outer triangle minus the inner one, which have the same shape.
   const double outer = far_foot * top;
   const double inner = foot * under;
   const double center = (outer * far_foot - inner * foot) / (3.0 * (outer - inner));
@@ -62,12 +63,12 @@ Scene tent_falls() {
   return tent(1.0 / kStructureMore, "falls");
 }
 
-// Books over the edge of a table, each at most L / (2 i) beyond the one below, the i-th from the top.
+// Books over the edge of a table. The i-th book from the top is at most L / (2 i) beyond the one below.
 Scene overhang(std::uint32_t books, double share, std::string answer) {
   constexpr double kLength = 1.0;
   constexpr double kHigh = 0.125;
   Scene scene = rigid_scene(std::move(answer), 1.0 / 240.0, 4.0);
-  double end = 0.0;  // of the lowest book, beyond the edge at x = 0
+  double end = 0.0;  // of the lowest book, measured from the table's edge at x = 0
   for (std::uint32_t i = books; i >= 1; --i) {
     end += share * kLength / (2.0 * i);
     add_box(scene, {kLength, kHigh, 0.5},
@@ -84,15 +85,15 @@ Scene overhang_falls() {
   return overhang(5, kStructureMore, "falls");
 }
 
-// A semicircular arch of n stones with radial joints and straight sides, its middle line of 1 m radius. The least
-// thickness of one of endless stones is 0.1075 R (Milankovitch, Theorie der Druckkurven, 1907); of 25 and of 7 stones,
-// whose hinges can lie in their joints alone, 0.10696 and 0.09570 R, by the same limit analysis.
+// A semicircular arch of n stones with radial joints and straight sides, with a middle line of 1 m radius. The least
+// thickness for infinitely many stones is 0.1075 R (Milankovitch, Theorie der Druckkurven, 1907). For 25 and for 7
+// stones, whose hinges can lie only in their joints, it is 0.10696 and 0.09570 R, by the same limit analysis.
 Scene arch(std::uint32_t stones, double thickness, std::string answer, double seconds) {
   Scene scene = rigid_scene(std::move(answer), 1.0 / 240.0, seconds);
   const double inside = 1.0 - 0.5 * thickness;
   const double outside = 1.0 + 0.5 * thickness;
   const auto joint = [stones](std::uint32_t k) {
-    // Both feet lie on the floor exactly.
+    // Both feet must lie on the floor exactly.
     if (k == 0) return Turn{1.0, 0.0};
     return k == stones ? Turn{-1.0, 0.0} : turn_by(kPi * k / stones);
   };
