@@ -21,7 +21,7 @@ int find_build_id(dl_phdr_info* info, std::size_t, void* out) {
   for (int k = 0; k < info->dlpi_phnum; ++k) {
     const auto& header = info->dlpi_phdr[k];
     if (header.p_type != PT_NOTE) continue;
-    // The loader says addresses as integers.
+    // The loader gives addresses as integers.
     const char* at =
         reinterpret_cast<const char*>(info->dlpi_addr + header.p_vaddr);  // NOLINT(performance-no-int-to-ptr)
     const char* const end = at + header.p_memsz;

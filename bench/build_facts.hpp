@@ -1,4 +1,5 @@
-// Which program this is and which machine it runs on: the part of a stamp that neither scene nor engine knows.
+// Which program this is and which machine it runs on: the part of a stamp that follows neither from the scene nor from
+// the engine.
 #pragma once
 
 #include <string>

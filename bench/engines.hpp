@@ -17,7 +17,7 @@ std::span<const core::EngineRow> engines();
 // nearest known one.
 core::Result<const core::EngineRow*> find_engine(std::string_view id);
 
-// Why the engine cannot run on this machine, in words for a cell; empty when it can.
+// Why the engine cannot run on this machine, in words for a table cell; empty when it can.
 std::string why_absent(const core::EngineRow& row);
 
 }  // namespace broadside::bench

@@ -20,12 +20,12 @@
 namespace broadside::bench {
 namespace {
 
-// An engine says what it is without work. Ten seconds are enough for an interpreter to start; a machine under load may
-// need more, which BROADSIDE_HELLO_LIMIT_S gives.
+// How long an engine may take to describe itself, which needs no work. Ten seconds are enough for an interpreter to
+// start; a machine under load may need more, which BROADSIDE_HELLO_LIMIT_S sets.
 constexpr double kHelloLimit_s = 10.0;
 constexpr const char* kHelloVariable = "BROADSIDE_HELLO_LIMIT_S";
 
-// Plug-ins are named and described before any thread begins, so nothing writes the environment meanwhile.
+// Plug-ins are named and described before any thread begins, so no other thread writes the environment meanwhile.
 std::optional<std::string> variable(const char* name) {
   const char* value = std::getenv(name);  // NOLINT(concurrency-mt-unsafe)
   return value == nullptr ? std::nullopt : std::optional<std::string>(value);
@@ -54,7 +54,7 @@ struct Plugin {
   core::EngineRow row;
 };
 
-// A deque keeps addresses, and others hold pointers to rows.
+// A deque, because its elements keep their addresses, and others hold pointers to rows.
 std::deque<Plugin>& plugins() {
   static std::deque<Plugin> all;
   return all;
@@ -66,7 +66,7 @@ const Plugin* plugin_named(std::string_view library) {
   return nullptr;
 }
 
-// Of a command: the words that are files.
+// The files of a plug-in; of a command, those words that are files.
 std::vector<std::filesystem::path> files_of(const Plugin& plugin) {
   if (!plugin.is_program) return {plugin.path};
   std::vector<std::filesystem::path> files;
@@ -77,7 +77,7 @@ std::vector<std::filesystem::path> files_of(const Plugin& plugin) {
   return files;
 }
 
-// By content, not only by name: a library that was built again is another engine.
+// Computed from the content and not only from the name: a library that was built again is another engine.
 std::string content_digest(const std::vector<std::filesystem::path>& files) {
   std::uint64_t digest = 0;
   std::uint64_t at = 0;
@@ -90,7 +90,7 @@ std::string content_digest(const std::vector<std::filesystem::path>& files) {
   return text;
 }
 
-// "node-jolt.mjs" of "node ../engines/jolt.mjs": without what settings are written with.
+// "node-jolt.mjs" of "node ../engines/jolt.mjs": without characters that have a meaning in settings.
 std::string name_of_command(const std::string& command) {
   const auto words = reference::words_of(command);
   std::string name;
@@ -103,7 +103,7 @@ std::string name_of_command(const std::string& command) {
   return name;
 }
 
-// `key`: the setting that carries the name into create(), which is a plain function like every row's.
+// `key`: the setting that holds the plug-in's name, because create() is a plain function and has no other input.
 core::Result<core::Engine> create_by(std::string_view key, const core::Settings& settings) {
   const Plugin* plugin = plugin_named(settings.text(key));
   if (plugin == nullptr) return core::Error{"no such plug-in was named", settings.text(key), "", core::Exit::kInternal};
@@ -144,8 +144,9 @@ core::Result<reference::PluginDescription> description_from(const std::string& j
   }
 }
 
-// What an ancestor of this process was told by the same command and the same files, as JSON in the environment: a cell
-// of a campaign is half a dozen processes, and an interpreter takes longer to start than most cells to run.
+// The environment variable in which a process passes descriptions to its children, as JSON: what each plug-in answered,
+// by command and content of its files. A cell of a campaign takes half a dozen processes, and an interpreter takes
+// longer to start than most cells take to run.
 constexpr const char* kToldVariable = "BROADSIDE_DESCRIBED";
 
 nlohmann::json told_by_ancestors() {

@@ -1,5 +1,5 @@
-# CUDA is optional: without nvcc the project configures and builds, and GPU cells say "not measured". Sets
-# BROADSIDE_HAS_CUDA. The language is enabled at the top because every executable that links broadside_gpu needs it.
+# CUDA is optional: without nvcc the project still builds, and GPU cells say "not measured". Sets BROADSIDE_HAS_CUDA.
+# The language is enabled at the top because every executable that links broadside_gpu needs it.
 
 set(BROADSIDE_HAS_CUDA OFF)
 if(BROADSIDE_CUDA)
@@ -12,12 +12,12 @@ if(BROADSIDE_CUDA)
   include(CheckLanguage)
   check_language(CUDA)
   if(CMAKE_CUDA_COMPILER)
-    # Which GPUs the binary runs on: machine code for Turing to Hopper, and PTX for later ones.
+    # Machine code for the GPUs from Turing to Hopper, and PTX for later ones.
     if(NOT DEFINED CMAKE_CUDA_ARCHITECTURES AND NOT DEFINED ENV{CUDAARCHS})
       set(CMAKE_CUDA_ARCHITECTURES 75-real 80-real 86-real 89-real 90 CACHE STRING "CUDA architectures")
     endif()
     enable_language(CUDA)
-    # CMake 3.25 does not know that nvcc 12 and later have C++20.
+    # CMake 3.25 does not know that nvcc 12 and later support C++20.
     if(NOT CMAKE_CUDA20_STANDARD_COMPILE_OPTION)
       set(CMAKE_CUDA20_STANDARD_COMPILE_OPTION -std=c++20)
       set(CMAKE_CUDA20_EXTENSION_COMPILE_OPTION -std=c++20)

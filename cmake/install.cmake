@@ -1,12 +1,12 @@
-# What `cmake --install` puts where, and the two Debian packages made of it: the program, and what users' own engines are
-# built with. ./broadside package makes these and the portable archive (cmake/package).
+# What `cmake --install` puts where, and the two Debian packages made of it: one with the program, one with what users
+# need to build engines of their own. ./broadside package makes these packages and the portable archive (cmake/package).
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
-# Installing takes the program alone, so it does not wait for the tests to be built.
+# Only the program is installed, so installing does not wait until the tests are built.
 set(CMAKE_SKIP_INSTALL_ALL_DEPENDENCY ON)
 
 install(TARGETS broadside RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT program)
-# The program and the libraries that it needs, in one folder, for a machine without these libraries.
+# This script puts the program and the libraries that it needs into one folder, for a machine without these libraries.
 install(PROGRAMS gpu/bundle RENAME broadside-bundle DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT program)
 # The gate of a repository with an engine, for any forge (.github/actions/gate/README.md).
 install(PROGRAMS .github/actions/gate/gate RENAME broadside-gate DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT program)

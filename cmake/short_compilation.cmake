@@ -1,13 +1,14 @@
-# What makes a build short: small files of a target are compiled together. They read the same headers and instantiate the
-# same templates, which takes most of their time alone. Off, each file is compiled by itself, as preset dev does: then a
-# change of one file compiles that file alone, and a file that forgot an include is found.
+# Shortens a build: small files of a target are compiled together, because they read the same headers and instantiate
+# the same templates, which takes most of the time of each alone. When the option is off, as in preset dev, each file is
+# compiled by itself: then a change of one file compiles that file alone, and a missing include is found.
 option(BROADSIDE_SHORT_COMPILATION "Compile small files of a room together" ON)
 
-# Headers that take seconds to read and that some files of a room include: CLI11's and nlohmann's.
+# Headers that take seconds to read and that some files of a folder include: CLI11's and nlohmann's.
 set(broadside_large_headers "^#include <(CLI/CLI|nlohmann/json)[.]hpp>")
 
 # broadside_by_large_headers(OUT SOURCE...)
-# The sources in another order: those that read the same large headers stand together, so that fewer units read them.
+# Sorts the sources so that those that read the same large headers are next to each other, and fewer units read these
+# headers.
 function(broadside_by_large_headers out)
   foreach(source ${ARGN})
     set(read "")
@@ -28,10 +29,10 @@ function(broadside_by_large_headers out)
 endfunction()
 
 # broadside_compile_together(TARGET SIZE SOURCE...)
-# Compiles these sources in units of SIZE files, in the order given but for large headers. Names in the unnamed namespaces
-# of a target are therefore distinct. Reading headers is half of what a unit of twelve small files takes, so units are
-# large: some 15 to 40 files, but none that takes so long that the others wait for it. A source with flags of its own stays
-# alone.
+# Compiles these sources in units of SIZE files, in the given order except for large headers. Therefore names in the
+# unnamed namespaces of a target must be distinct. Reading headers takes half the time of a unit of twelve small files,
+# so units are large: some 15 to 40 files, but no unit takes so long that the others wait for it. A source with flags of
+# its own stays alone.
 function(broadside_compile_together target size)
   if(NOT BROADSIDE_SHORT_COMPILATION)
     return()

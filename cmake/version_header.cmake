@@ -1,4 +1,4 @@
-# Run at every build: writes broadside_version.hpp, and only when something in it changed.
+# Runs at every build: writes broadside_version.hpp, but only when its content changed.
 # In: OUT, VERSION, COMPILER, BUILD_TYPE, FLAGS, SOURCE_DIR.
 execute_process(COMMAND git -C ${SOURCE_DIR} describe --always --dirty --exclude=* --abbrev=12
                 OUTPUT_VARIABLE commit OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET RESULT_VARIABLE failed)

@@ -1,8 +1,10 @@
-# Engines of rigid bodies that are built when their libraries are there; an engine without its library says what to install.
-# ODE and MuJoCo are packages of the set-up; DART and Simbody are larger, and found when somebody has installed them.
+# Engines of rigid bodies that are built when their libraries are installed; an engine without its library says what to
+# install. The set-up installs ODE and MuJoCo. DART and Simbody are larger, and are used when the user has installed
+# them.
 pkg_check_modules(ode QUIET IMPORTED_TARGET ode)
 find_package(mujoco QUIET)
-# By their files: DART's own configuration searches for a dozen libraries that are not linked here, and Simbody's fixes flags.
+# Searched by file: DART's own configuration searches for a dozen libraries that are not linked here, and Simbody's sets
+# compiler flags.
 find_path(BROADSIDE_DART_INCLUDE dart/dart.hpp)
 find_library(BROADSIDE_DART_LIBRARY dart)
 find_path(BROADSIDE_IKFAST_INCLUDE dart/external/ikfast/ikfast.h)
@@ -14,8 +16,8 @@ mark_as_advanced(BROADSIDE_DART_INCLUDE BROADSIDE_DART_LIBRARY BROADSIDE_IKFAST_
   BROADSIDE_SIMBODY_LIBRARY BROADSIDE_SIMBODY_MATH_LIBRARY BROADSIDE_SIMBODY_COMMON_LIBRARY)
 
 # broadside_world_engine(FOLDER NAME FOUND LIBRARY...)
-# The sources of reference see BROADSIDE_HAS_NAME. Without the library only engine.cpp is compiled in reference/FOLDER. The
-# library is linked alone: its definitions and folders of headers reach no source.
+# The sources of reference get BROADSIDE_HAS_NAME. Without the library only engine.cpp of reference/FOLDER is compiled.
+# Only the library itself is linked: its definitions and include folders reach no other source.
 function(broadside_world_engine folder name found)
   file(GLOB_RECURSE inside CONFIGURE_DEPENDS ${folder}/*.cpp)
   if(found)

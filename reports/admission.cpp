@@ -19,7 +19,7 @@ std::vector<std::string> differences(const core::Stamp& a, const core::Stamp& b)
   return names;
 }
 
-// Why no recording proves this sample: what the nearest recording lacks.
+// Why no recording proves this sample: says what the recording that comes nearest lacks.
 std::string why_no_cell(const core::Sample& sample, const core::RunRows& rows) {
   for (const core::Cell& cell : rows.cells)
     if (same_stamp(cell.stamp, sample.stamp)) return "the recording of the same stamp is " + state_text(cell);
@@ -34,7 +34,7 @@ std::string at_place(const core::Place& place) {
   return place.step < 0 && place.bodies.empty() ? "" : " (worst at " + place_text(place) + ")";
 }
 
-// Why no law proved the motion: what each law that could have done so met instead.
+// Why no law proved the motion: says, for each law that could have, what it found instead.
 std::string why_unproven(const core::Stamp& stamp, const core::RunRows& rows) {
   std::string text;
   for (const core::CellVerdicts& cell : rows.verdicts) {
@@ -102,7 +102,7 @@ Admission admit(const core::Sample& sample, const core::RunRows& rows) {
   if (!has_frame)
     return {.reason = "the recording keeps no digest of step " + step +
                       ", where the timed run ended (its last is of step " + std::to_string(last_step) + ")"};
-  // Refused also when another recording of the stamp agrees, because one stamp with two answers proves nothing.
+  // Refused even when another recording of the stamp agrees, because one stamp with two answers proves nothing.
   if (has_other_digest || !has_equal_digest)
     return {.reason = "the timed run's answer differs from the recording's at step " + step + " (digest " +
                       hexadecimal(sample.final_digest) + " against " + hexadecimal(other_digest) + ")"};

@@ -7,7 +7,7 @@
 namespace broadside::reports {
 namespace {
 
-// std::lgamma writes the sign to a variable of the whole process; here it is positive.
+// std::lgamma writes the sign to a global variable; here the sign is always positive, so it is not needed.
 double log_gamma(double v) {
   int sign = 0;
   return lgamma_r(v, &sign);
@@ -59,7 +59,8 @@ Moments moments(std::span<const double> values) {
 std::size_t best_split(std::span<const double> x, std::size_t least) {
   const std::size_t n = x.size();
   if (n < 2 * least) return 0;
-  // Sums of |x_i - x_k| within the left, within the right and across, kept up as one value after the other moves left.
+  // Sums of |x_i - x_k| within the left side, within the right side and across; updated as values move to the left side
+  // one by one.
   double within_left = 0.0;
   double within_right = 0.0;
   double across = 0.0;

@@ -21,14 +21,14 @@ struct ChangePointOptions {
   std::size_t least_values = 3;  // of a regime; fewer have no spread worth testing
 };
 
-// Splits where the energy statistic of Matteson and James (2014; exponent 1) is largest, tests that split with Welch's
-// t-test instead of permutations (Fleming et al. 2023, so the answer is the same every time), and goes on on both
-// sides; then drops, weakest first, what the neighbors no longer support. Rising by index. Values are finite. O(n^2) a
-// split.
+// Splits where the energy statistic of Matteson and James (2014; exponent 1) is largest, tests the split with Welch's
+// t-test instead of permutations (Fleming et al. 2023), so that the answer is the same every time, and continues on
+// both sides. Then it removes, weakest first, the change points that are not significant between their neighbors.
+// Rising by index. Values are finite. O(n^2) a split.
 std::vector<ChangePoint> change_points(std::span<const double> values, const ChangePointOptions& options = {});
 
-// Two-sided p of Welch's t-test that two sets have one mean; 1 where a set has fewer than two values. Equal sets
-// without spread give 1, unequal ones 0.
+// Two-sided p of Welch's t-test for equal means of two sets; 1 where a set has fewer than two values. Two sets without
+// spread give 1 when they are equal, and 0 otherwise.
 double welch_p(std::span<const double> a, std::span<const double> b);
 
 // P(|T| > t) of Student's distribution with `degrees` > 0 degrees of freedom, t >= 0.

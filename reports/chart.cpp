@@ -99,7 +99,7 @@ std::string chart_table(const Chart& chart) {
   const bool is_down = !chart.y.categories.empty();
   const Axis& along = is_down ? chart.y : chart.x;
   const Axis& of = is_down ? chart.x : chart.y;
-  // Series need not share their places.
+  // Series may have values at different places on x.
   std::map<double, std::vector<std::string>> rows;
   for (std::size_t s = 0; s < chart.series.size(); ++s) {
     const Series& one = chart.series[s];

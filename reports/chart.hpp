@@ -1,4 +1,4 @@
-// A chart as a value: the page draws it, a table beside it says the same in figures, and a paper gets it as a file.
+// A chart as a value: the page draws it, a table beside it has the same figures, and it can be written to a file.
 #pragma once
 
 #include <string>
@@ -12,24 +12,24 @@ struct Axis {
   std::string unit;  // "ms"; empty = none
   bool is_log = false;
   bool from_zero = false;
-  // Names of places 0, 1, 2, ... instead of a scale; the values of this axis are then their numbers. As the y axis they
-  // run downwards.
+  // Names of the places 0, 1, 2, ... instead of a scale; the values of this axis are then these numbers. On the y axis
+  // they run downwards.
   std::vector<std::string> categories = {};
 };
 
 enum class SeriesKind { kLine, kPoints, kBar, kArea };  // areas stack
 
-// x and y are of one length. low and high are of the same length or empty: a band around a line, whiskers of a point
-// (along x where the y axis has categories).
+// x and y have the same length. low and high have this length too, or are empty: they are a band around a line, or the
+// whiskers of a point (along x where the y axis has categories).
 struct Series {
   std::string name;
   SeriesKind kind = SeriesKind::kLine;
   std::vector<double> x, y;
   std::vector<double> low = {}, high = {};
-  std::string stack = {};  // bars of one stack name stand on each other
+  std::string stack = {};  // bars with the same stack name are stacked
 };
 
-// A line across the chart with a word: a limit, a change point.
+// A line across the chart with a label: a limit, a change point.
 struct ChartMark {
   std::string text;
   double at = 0.0;
@@ -48,8 +48,8 @@ struct Chart {
 // Charts of one page, in the order in which they were added.
 class ChartBook {
  public:
-  // The place of a chart on the page: a plain picture until a script draws it, and a table of its figures. Long series
-  // are thinned in the table, which says so. Empty for a chart without points.
+  // The HTML for a chart's place on the page: a plain picture, which a script replaces, and a table of its figures.
+  // Long series are thinned in the table, and the table says so. Empty for a chart without points.
   std::string figure(Chart chart);
 
   [[nodiscard]] const std::vector<Chart>& charts() const { return charts_; }

@@ -15,14 +15,15 @@ std::string label_of(const Axis& axis) {
   return axis.unit.empty() ? axis.name : axis.name + ", " + axis.unit;
 }
 
-// A bar's value is on y, however the chart lies; a mark between two categories has no place.
+// A bar's value is always on y here, even where the chart is drawn sideways; a mark between two categories has no
+// place.
 std::vector<plots::CrossLine> lines_of(const Chart& chart, bool values_on_x) {
   std::vector<plots::CrossLine> lines;
   for (const ChartMark& mark : chart.marks) lines.push_back({mark.text, mark.at, mark.is_on_y != values_on_x});
   return lines;
 }
 
-// Categories become groups; a series without a value in a group has none there.
+// Categories become groups; a series without a value in a group has no bar there.
 std::string bars(const Chart& chart, bool is_down, plots::Placement placement) {
   constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
   const Axis& along = is_down ? chart.y : chart.x;

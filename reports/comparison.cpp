@@ -22,7 +22,7 @@ struct Entry {
   std::string scene, label;
   std::uint64_t digest = 0;
   const core::Cell* cell = nullptr;  // a recorded one, when there is any
-  // By validator and baseline, the gravest; in order of first appearance.
+  // The gravest outcome by validator and baseline; in order of first appearance.
   std::vector<std::pair<std::string, Outcome>> verdicts;
 };
 
@@ -77,7 +77,7 @@ std::string words(const std::optional<Outcome>& outcome) {
   return outcome ? std::string(core::outcome_word(*outcome)) : "no verdict";
 }
 
-// "Not applicable" says no more about the law than a missing verdict.
+// "Not applicable" says as little about the law as a missing verdict.
 bool is_silent(const std::optional<Outcome>& outcome) {
   return !outcome || *outcome == Outcome::kNotApplicable;
 }
@@ -89,7 +89,7 @@ std::string more_or_less(std::uint64_t was, std::uint64_t is) {
   return " (" + percent(std::abs(share)) + (share > 0.0 ? " more)" : " less)");
 }
 
-// Stages that a run has times of, by cell.
+// The stages for which a run has times, by cell.
 std::map<std::pair<std::string, std::string>, std::set<std::string>> stages_of(const core::RunRows& rows) {
   std::map<std::pair<std::string, std::string>, std::set<std::string>> stages;
   for (const core::Sample& sample : rows.samples)
@@ -158,7 +158,7 @@ class Comparer {
       if (*is == Outcome::kFail) ++result_.still_failing;
       return;
     }
-    // A verdict that is new counts by its outcome: a pass is good news, a fail is not.
+    // A new verdict counts by its outcome: a pass is an improvement, a fail is not.
     const int before = is_silent(was) ? severity(Outcome::kPass) : severity(*was);
     if (severity(*is) > before) {
       add(where, ChangeKind::kVerdictWorse, name, words(was), words(is),

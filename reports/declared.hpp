@@ -1,4 +1,4 @@
-// What engines declared of themselves, side by side.
+// The declarations of engines, side by side.
 #pragma once
 
 #include <string>
@@ -8,20 +8,20 @@
 
 namespace broadside::reports {
 
-// Engines of one declaration share a column.
+// Engines with the same declaration share a column.
 struct DeclaredColumn {
   std::vector<std::string> labels;
-  std::vector<std::string> values;  // one a row; empty = not declared
+  std::vector<std::string> values;  // one for each row; empty = not declared
 };
 
 struct DeclaredTable {
   std::vector<std::string> keys;      // every key of the table of keys, then keys that this build does not know
-  std::vector<std::string> defaults;  // what a key that is not declared is taken as; empty = nothing
+  std::vector<std::string> defaults;  // the value that is assumed for a key that is not declared; empty = none
   std::vector<std::string> meanings;
   std::vector<DeclaredColumn> columns;
 };
 
-// Of the engines that moved bodies: laws are chosen by what those declare. No columns when there is none.
+// The declarations of engines that moved bodies, because laws are chosen by these. No columns when there is none.
 DeclaredTable declared_table(const SceneView& scene);
 
 // "not declared: taken as cone".

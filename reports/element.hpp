@@ -15,8 +15,8 @@ struct Attribute {
   std::string value;
 };
 
-// `kind` is the tag with its classes, as in a style sheet: "td.figure" is <td class="figure">. Elements of HTML that
-// have no content, such as <meta>, are no business of this function.
+// `kind` is the tag with its classes, as in a style sheet: "td.figure" is <td class="figure">. HTML elements that have
+// no content, such as <meta>, cannot be made with this function.
 std::string element_of(std::string_view kind, std::initializer_list<Attribute> attributes, std::string_view content);
 
 template <class... Content>
@@ -40,7 +40,7 @@ struct Column {
 std::string column_head(const Column& column);
 std::string table_head(const std::vector<Column>& columns);
 
-// A cell of a table's body. On narrow screens `name` stands before it, where the head is not seen.
+// A cell of a table's body. On narrow screens, where the table head is hidden, `name` is shown before the content.
 std::string text_cell(std::string_view name, std::string_view content);
 std::string figure_cell(std::string_view name, std::string_view content);
 // The head of a row.

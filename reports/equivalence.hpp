@@ -1,5 +1,5 @@
-// Notes of cells that have a section of their own: how the engine's world differs from the scene, which known defects
-// of libraries were met, and how far narrow phases agree.
+// Cell notes that have a section of their own: how the engine's world differs from the scene, which known defects of
+// libraries occurred, and how far narrow phases agree.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +13,7 @@
 
 namespace broadside::reports {
 
-// Notes of these kinds are printed here and nowhere else.
+// Whether notes with this key are printed in this section and nowhere else.
 bool is_equivalence_note(std::string_view key);
 
 struct EngineCard {
@@ -23,7 +23,7 @@ struct EngineCard {
   [[nodiscard]] std::uint64_t differences() const;
 };
 
-// Cards of the scene's cells, those without one left out.
+// The cards of the scene's cells; cells without a card are left out.
 std::vector<EngineCard> cards_of(const SceneView& scene);
 
 struct DefectRow {
@@ -42,8 +42,8 @@ struct AgreementGrid {
 
 AgreementGrid agreement_of(const SceneView& scene);
 
-// How many answers are off by how much, by powers of ten: bin 0 holds what is below 10^lowest_power, the last one what
-// is 10^(lowest_power + bins - 2) or more.
+// A histogram of errors by powers of ten: bin 0 counts errors below 10^lowest_power, the last bin those of
+// 10^(lowest_power + bins - 2) or more.
 struct AgreementHistograms {
   std::string title;
   std::string unit;
@@ -51,13 +51,13 @@ struct AgreementHistograms {
   std::size_t bins = 0;
   std::vector<std::pair<std::string, std::vector<double>>> rows = {};  // label, counts
 };
-// "distance" and "normal"; empty for the one that no cell has.
+// The histograms "distance" and "normal"; a histogram that no cell has is left out.
 std::vector<std::pair<std::string, AgreementHistograms>> agreement_histograms_of(const SceneView& scene);
 
-// Cards, declarations and defects as escaped HTML; empty when no cell of the scene says anything of the kind.
+// Cards, declarations and defects as escaped HTML; empty when no cell of the scene has any of these.
 std::string equivalence_section(const SceneView& scene);
 
-// Escaped Markdown blocks: differences alone, declarations, defects that were met, the agreement table.
+// Escaped Markdown blocks: only the differences, then declarations, defects that occurred, and the table of agreement.
 std::vector<std::string> equivalence_markdown(const SceneView& scene);
 
 }  // namespace broadside::reports

@@ -15,12 +15,12 @@ std::string html(std::string_view text);
 std::string xml(std::string_view text);
 
 // For running text and table cells of GitHub-flavored Markdown: no markup, no raw HTML, no mention of an account, no
-// link that was not asked for. Includes printable().
+// automatic link. Includes printable().
 std::string markdown(std::string_view text);
 
-// Code points, which is what a terminal's columns count for the names that occur here. The text is printable().
+// The number of code points: the columns that a terminal uses for names as they occur here. The text is printable().
 std::size_t width(std::string_view text);
-// At most `columns` wide, the last one an ellipsis where something was cut.
+// The text, at most `columns` wide; where something was cut, the last column is an ellipsis.
 std::string clipped(std::string_view text, std::size_t columns);
 
 }  // namespace broadside::reports

@@ -62,7 +62,7 @@ std::string quantity(double value, std::string_view unit, int digits) {
     return figure(value, digits) + " " + std::string(unit);
   for (const Prefix& prefix : kPrefixes) {
     const double scaled = value / prefix.factor;
-    // Rounded, so that 999.96 m with three digits becomes 1 km and not 1000 m.
+    // Compared after rounding, so that 999.96 m with three digits becomes 1 km and not 1000 m.
     if (std::abs(std::stod(printed("%.*e", digits - 1, scaled))) < 1.0) continue;
     return figure(scaled, digits) + " " + std::string(prefix.name) + std::string(unit);
   }
@@ -87,7 +87,7 @@ TimeUnit time_unit_for(double typical_s) {
 std::string time_in(TimeUnit unit, double seconds) {
   if (!std::isfinite(seconds)) return figure(seconds);
   const double value = seconds * unit.per_second;
-  // Three significant digits, but trailing zeros stay: they are what makes a column of figures line up.
+  // Three significant digits, but trailing zeros stay, so that a column of figures lines up.
   const double size = std::abs(value);
   if (size > 0.0 && size < 0.0005) return "<0.001";
   return printed("%.*f", size >= 99.95 ? 0 : size >= 9.995 ? 1 : size >= 0.9995 ? 2 : 3, value);

@@ -21,7 +21,7 @@ struct Compared {
 };
 Compared compared(double measured, double limit, std::string_view unit);
 
-// Seconds, scaled by a power of ten that a whole table shares, so that its columns can be read downwards.
+// A unit of time for a whole table: seconds scaled by one power of ten, so that columns can be compared downwards.
 struct TimeUnit {
   double per_second;
   std::string_view name;  // "ms"

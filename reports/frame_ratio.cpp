@@ -8,7 +8,7 @@ namespace broadside::reports {
 namespace {
 
 constexpr std::size_t kMostParts = 8;
-constexpr std::size_t kFramesOfPart = 8;  // fewest: a median of so many ignores one disturbed frame in three
+constexpr std::size_t kFramesOfPart = 8;  // the fewest: a median of so many ignores one disturbed frame in three
 
 double median_of(std::vector<double>& values) {
   std::sort(values.begin(), values.end());
@@ -26,7 +26,7 @@ double frame_ratio(const std::vector<double>& base, const std::vector<double>& h
     std::vector<double> seconds;
     std::vector<double> ratios;
     for (std::size_t k = part * frames / parts; k < (part + 1) * frames / parts; ++k) {
-      if (!(base[k] > 0.0)) continue;  // a clock too coarse for this frame
+      if (!(base[k] > 0.0)) continue;  // the clock is too coarse for this frame
       seconds.push_back(base[k]);
       ratios.push_back(head[k] / base[k]);
     }

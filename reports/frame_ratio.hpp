@@ -5,10 +5,11 @@
 
 namespace broadside::reports {
 
-// Head over base, of equally many frames (s), at least one. Frame k of one is divided by frame k of the other, so that
-// what slowed both at that moment cancels where they ran in turns. The run is cut into up to eight parts of at least
-// eight frames. A part counts by the median of its frames' ratios, the run by the mean of its parts weighted with their
-// time in the base: so a change in an eighth of the run shows, and single disturbed frames do not.
+// Head over base, from the times (s) of at least one frame; both have equally many. Frame k of one is divided by frame
+// k of the other, so that a disturbance of both at that moment cancels where they ran in turns. The run is cut into up
+// to eight parts of at least eight frames. A part counts by the median of its frames' ratios, and the run by the mean
+// of its parts, weighted with their time in the base. So a change in an eighth of the run shows, and single disturbed
+// frames do not.
 double frame_ratio(const std::vector<double>& base, const std::vector<double>& head);
 
 }  // namespace broadside::reports

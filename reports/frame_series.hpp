@@ -1,4 +1,4 @@
-// Figures of one run over its steps: what a chart with the step along x shows.
+// Figures of one run over its steps, for a chart with the step along x.
 #pragma once
 
 #include <cstdint>

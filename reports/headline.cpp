@@ -23,7 +23,7 @@ std::vector<Finding> findings(const std::vector<SceneView>& scenes, core::Outcom
   return found;
 }
 
-// "on 2 of 9 engines": how many engines it concerns.
+// "on 2 of 9 traces": on how many traces these verdicts were found.
 std::string reach(const std::vector<SceneView>& scenes, const std::vector<Finding>& found) {
   std::vector<std::string> labels;
   for (const Finding& finding : found)
@@ -36,7 +36,7 @@ std::string reach(const std::vector<SceneView>& scenes, const std::vector<Findin
   return "on " + std::to_string(labels.size()) + " of " + counted(judged, "trace");
 }
 
-// The validators by name, the first with its worst place: "center-of-mass (worst at step 41, bodies 3 and 17),
+// The names of the validators, the first with its worst place: "center-of-mass (worst at step 41, bodies 3 and 17),
 // capacity".
 std::string named(const std::vector<Finding>& found, bool name_the_trace) {
   constexpr std::size_t kNamed = 3;

@@ -1,4 +1,4 @@
-// Runs over days: the file to which they are appended, and the series in it.
+// Runs over days: the file to which they are appended, and the series that it contains.
 #pragma once
 
 #include <cstdint>
@@ -19,7 +19,7 @@ struct HistoryPoint {
   double value = 0.0;
 };
 
-// One figure of one cell on one machine, run by run: only such values can be compared.
+// One figure of one cell on one machine, run by run: values of other cells or machines cannot be compared with it.
 struct HistorySeries {
   std::string machine, scene, label;
   std::string metric;  // "median frame", "counter box tests", "verdicts failed"
@@ -29,14 +29,14 @@ struct HistorySeries {
 };
 
 struct Appended {
-  bool is_new = false;  // false: the very same rows are in the file already
+  bool is_new = false;  // false: exactly these rows are in the file already
   std::uint64_t run = 0;
   std::uint64_t values = 0;
 };
 
-// Appends what the rows measured: of each recorded cell its counters and failed verdicts, of each admitted time its
-// median frame and stages. The file is SQLite 3, created when absent; a run is appended whole or not at all, also when
-// the program dies. at: when the run was made, UTC, ISO 8601. A file that is no history is an error.
+// Appends the measurements in the rows: the counters and failed verdicts of each recorded cell, and the median frame
+// and the stages of each admitted time. The file is SQLite 3, created when absent; a run is appended whole or not at
+// all, even when the program dies. at: when the run was made, UTC, ISO 8601. A file that is no history is an error.
 core::Result<Appended> append_to_history(const std::filesystem::path& file, const core::RunRows& rows,
                                          const std::string& at);
 

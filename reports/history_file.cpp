@@ -55,7 +55,7 @@ class Query {
     sqlite3_bind_double(statement_.get(), ++bound_, number);
     return *this;
   }
-  // SQLITE_ROW, SQLITE_DONE or an error.
+  // Returns SQLITE_ROW, SQLITE_DONE or an error.
   int step() { return statement_ ? sqlite3_step(statement_.get()) : SQLITE_ERROR; }
   [[nodiscard]] std::string text(int column) const {
     const auto* bytes = sqlite3_column_text(statement_.get(), column);
@@ -130,8 +130,8 @@ std::vector<Value> values_of(const core::RunRows& rows, const std::vector<Timing
   return values;
 }
 
-// The key by which a run is not appended twice: the values themselves, the builds that they came from, and how long
-// each recording took, which no two recordings share.
+// The key that keeps a run from being appended twice: a hash of the values, the builds that they came from, and how
+// long each recording took, which differs between any two recordings.
 std::string name_of(const core::RunRows& rows, const std::vector<Value>& values) {
   std::uint64_t hash = 0xcbf29ce484222325ULL;  // FNV-1a, 64 bit
   const auto add = [&](const std::string& text) {

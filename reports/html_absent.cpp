@@ -4,7 +4,7 @@
 
 namespace broadside::reports {
 
-// The paper's own page is still written, without the page's style.
+// The paper's own page is still written, but without the page's style.
 const std::string_view kPageStyle;
 
 bool has_html_page() {

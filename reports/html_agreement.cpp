@@ -1,4 +1,4 @@
-// How far narrow phases are from the exact answer: the table by kind of pair, and histograms of what they are off by.
+// How far narrow phases are from the exact answer: a table by kind of pair, and histograms of the errors.
 #include <algorithm>
 #include <map>
 #include <sstream>

@@ -1,4 +1,5 @@
-// How much was judged: laws that applied by kind, whether a motion was proven, and why the others did not apply.
+// How much was judged: how many laws of each kind applied, whether a motion was proven, and why other laws did not
+// apply.
 #include <string>
 #include <vector>
 

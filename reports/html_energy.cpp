@@ -1,4 +1,4 @@
-// Where each run's energy went, as curves over its frames.
+// The energy ledger of each run, as curves over its frames.
 #include <algorithm>
 
 #include "reports/element.hpp"
@@ -7,10 +7,10 @@
 namespace broadside::reports {
 namespace {
 
-// More points than a curve of this width can show.
+// A curve of this width cannot show more points.
 constexpr std::size_t kMostPoints = 320;
 
-// Every so many frames, and the last.
+// The indices of every k-th frame, and of the last.
 std::vector<std::size_t> shown(std::size_t frames) {
   std::vector<std::size_t> at;
   const std::size_t stride = std::max<std::size_t>(1, (frames + kMostPoints - 1) / kMostPoints);

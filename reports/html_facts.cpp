@@ -1,4 +1,4 @@
-// What ran, on what, and how to run it again.
+// What ran, on which machine, and how to run it again.
 #include <algorithm>
 #include <set>
 
@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::string_view kPairs = "pairs: ";
 constexpr std::string_view kCommand = "command";
-// For a process that died: the command that makes it die again.
+// The note of a process that died: the command that repeats the failure.
 constexpr std::string_view kRepeat = "repeat";
 constexpr std::string_view kStandIn = "stand-in";
 

@@ -1,4 +1,4 @@
-// What each law says: a sentence, a small picture, and how many traces it met something in.
+// The explanation of each law: a sentence, a small picture, and in how many traces it applied.
 #include <algorithm>
 
 #include "reports/element.hpp"
@@ -11,7 +11,7 @@ namespace broadside::reports {
 namespace {
 
 struct KnownLaw {
-  const core::Verdict* said = nullptr;  // the verdict that says most of it
+  const core::Verdict* said = nullptr;  // the verdict that explains the law most fully
   std::uint64_t applied = 0;            // traces
   std::uint64_t asked = 0;
 };
@@ -61,7 +61,7 @@ std::string law_html(const KnownLaw& law) {
 
 std::string laws_section(PageParts& page) {
   const std::vector<KnownLaw> laws = laws_of(page.scenes);
-  // Rows of earlier builds do not say what their laws are.
+  // Rows of earlier builds contain no explanations of laws.
   const auto is_said = [](const KnownLaw& l) { return !l.said->law.empty(); };
   if (std::none_of(laws.begin(), laws.end(), is_said)) return "";
   std::string kinds;

@@ -31,7 +31,7 @@ std::string parts_html(const core::Verdict& verdict) {
   return element("ul.parts", items);
 }
 
-// Everything known about one verdict.
+// The card with everything that is known about one verdict.
 std::string verdict_card(const core::Verdict& verdict, const TraceView& trace, const PageParts& page) {
   std::string out = element("h4", outcome_html(verdict.outcome, false), " ", element("span", html(verdict.validator)));
   const std::string against = verdict.baseline.empty() ? "" : ", against " + html(verdict.baseline);
@@ -60,7 +60,7 @@ std::string matrix_place(const SceneView& scene, const TraceView& trace, std::si
     summary += element("span.unseen", ",") + " " + element("i", "\u00D7", std::to_string(said.size()));
   std::string cards;
   for (const core::Verdict* verdict : said) cards += verdict_card(*verdict, trace, page);
-  // All share one name: opening one closes the one that was open, with scripts off too.
+  // All cells share one name, so that opening one closes the other, even without scripts.
   return element("td." + std::string(outcome_class(outcome)), {{"data-name", name}},
                  element("details", {{"name", "matrix-" + std::to_string(scene_number)}}, element("summary", summary),
                          element(is_leftward ? "div.card.leftward" : "div.card", cards)));
@@ -91,7 +91,7 @@ std::string engine_head(const TraceView& trace, bool says_baselines) {
   return row_head(label_html(trace.stamp, trace.label) + (below.empty() ? "" : element("small", html(below))));
 }
 
-// The laws that stand in one table.
+// The columns of one table: laws of one kind, or all laws.
 struct Columns {
   core::LawKind kind = core::LawKind::kTrace;
   std::vector<std::size_t> validators;
@@ -104,7 +104,7 @@ core::LawKind kind_of(const SceneView& scene, std::size_t validator) {
   return core::LawKind::kTrace;
 }
 
-// One table, or of many laws one for each kind, so that a wide screen holds them.
+// One table; where there are many laws, one table for each kind, so that each fits a wide screen.
 std::vector<Columns> tables_of(const SceneView& scene) {
   constexpr std::size_t kManyColumns = 15;
   std::vector<Columns> tables;

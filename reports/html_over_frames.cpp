@@ -59,7 +59,8 @@ Chart stage_chart(const SceneView& scene, const Timing& timing, const core::RunR
   return chart;
 }
 
-// When all runs are of one process, the interval covers less, and the page says so.
+// The units of the bootstrap: processes, or, when all runs are of one process, its runs. Then the interval covers less,
+// and the page says so.
 std::vector<ProcessRuns> units_of(const core::RunRows& rows, const core::Stamp& stamp) {
   const auto processes = median_frames(rows, stamp);
   std::vector<ProcessRuns> units;

@@ -11,7 +11,7 @@
 namespace broadside::reports {
 namespace {
 
-// The policy forbids the page to fetch anything, even if a link were to slip through.
+// The policy forbids the page to fetch anything, even if a link got into it by mistake.
 constexpr std::string_view kHeadStart = R"(<!doctype html>
 <html lang="en">
 <head>

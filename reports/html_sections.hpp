@@ -19,8 +19,8 @@ struct PageParts {
   ChartBook charts = {};
 };
 
-// A part of the page about one scene, or about the whole run; empty when it has nothing to show. The two tables that
-// list them, in the order of the page, are in html_page.cpp: a new part is one file and one line.
+// A part of the page about one scene, or about the whole run; empty when it has nothing to show. html_page.cpp has the
+// two tables that list these parts in the order of the page: a new part is one file and one line.
 using ScenePart = std::string (*)(const SceneView& scene, PageParts& page);
 using RunPart = std::string (*)(PageParts& page);
 
@@ -28,11 +28,11 @@ using RunPart = std::string (*)(PageParts& page);
 std::string findings_section(PageParts& page);
 // The 3-D view, with a picture for paper and for browsers without WebGL.
 std::string view_section(PageParts& page);
-// Parts made elsewhere, such as the paper's tables.
+// Parts that were made by other code, such as the paper's tables.
 std::string guest_sections(PageParts& page);
 // Cost against the number of bodies, over scenes of one family.
 std::string scaling_section(PageParts& page);
-// Where each run's energy went, for runs that have an energy ledger.
+// The energy ledger of each run that has one, as curves.
 std::string energy_section(PageParts& page);
 // Earlier runs of the same cells, with change points.
 std::string history_section(PageParts& page);
@@ -43,9 +43,9 @@ std::string laws_section(PageParts& page);
 // What the words and figures mean.
 std::string legend_section(PageParts& page);
 
-// Engines down, validators across; each place opens its verdicts.
+// Engines are rows, validators are columns; each cell opens its verdicts.
 std::string matrix_section(const SceneView& scene, PageParts& page);
-// How many laws met something, and why the others did not.
+// How many laws applied, and why the others did not.
 std::string coverage_section(const SceneView& scene, PageParts& page);
 // Bars and tables of times; says so when nothing was timed.
 std::string times_section(const SceneView& scene, PageParts& page);

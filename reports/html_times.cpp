@@ -1,4 +1,4 @@
-// Times of one scene: bars that share a scale among engines that did the same stages, and the figures beside them.
+// Times of one scene: bars with a common scale for engines that did the same stages, and the figures beside them.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::size_t kStageColors = 8;
 
-// Round steps of 1, 2 or 5 times a power of ten, at most four of them up to the largest value.
+// Round steps of 1, 2 or 5 times a power of ten, at most four of them from zero to the largest value.
 struct Scale {
   double step_s = 1.0;
   double end_s = 1.0;
@@ -40,7 +40,7 @@ std::string share(double value, const Scale& scale) {
   return text.data();
 }
 
-// The largest value sets the axis, so the axis has a unit of its own.
+// The axis has a unit of its own, chosen by the largest value.
 std::string axis(const Scale& scale) {
   const TimeUnit unit = time_unit_for(scale.step_s);
   std::string ticks;
@@ -53,7 +53,7 @@ std::string axis(const Scale& scale) {
   return element("svg.axis", {{"width", "100%"}, {"height", "16"}, {"aria-hidden", "true"}}, ticks);
 }
 
-// A line of a bar's picture, across (from, to) at a height, or down at one place.
+// A line in the picture of a bar: across from `from` to `to` at a height, or upright at one place.
 std::string across(std::string_view style, const std::string& from, const std::string& to, const std::string& y) {
   return element(style, {{"x1", from}, {"x2", to}, {"y1", y}, {"y2", y}});
 }
@@ -61,7 +61,8 @@ std::string down(std::string_view style, const std::string& x, const std::string
   return element(style, {{"x1", x}, {"x2", x}, {"y1", from}, {"y2", to}});
 }
 
-// Means stack up to the mean frame exactly; medians would not. The tick is the median frame, the line p5 to p95.
+// The means of stages add up to the mean frame exactly, medians would not. The tick is the median frame, the line p5 to
+// p95.
 std::string bar(const Timing& timing, const Scale& scale, TimeUnit unit) {
   std::string label = "Mean per frame:";
   std::string shapes;
@@ -79,7 +80,7 @@ std::string bar(const Timing& timing, const Scale& scale, TimeUnit unit) {
   };
   for (std::size_t k = 0; k < timing.stages.size(); ++k)
     segment(timing.stages[k].stage, timing.stages[k].seconds.mean, "s" + std::to_string(k % kStageColors));
-  // Time that the stages do not account for, when it is more than the clock's own noise.
+  // The time between the stages, where it is more than the noise of the clock.
   if (timing.frame.mean - left > 0.005 * timing.frame.mean) segment("between stages", timing.frame.mean - left, "rest");
   shapes += across("line.tail", share(timing.frame.p5, scale), share(timing.frame.p95, scale), "22");
   shapes += down("line.median", share(timing.frame.median, scale), "18.5", "25.5");

@@ -1,4 +1,4 @@
-// What spans scenes and days: cost against the number of bodies, and the history of earlier runs.
+// Comparisons over several scenes or days: cost against the number of bodies, and the history of earlier runs.
 #include <algorithm>
 #include <cmath>
 #include <set>
@@ -22,7 +22,7 @@ std::string exponent_row(const ScalingSeries& s) {
                  figure_cell("counts", counted(s.n.size())));
 }
 
-// Series of a cell that this report shows, those with a change first.
+// The series of the cells in this report, those with a change first.
 std::vector<const HistorySeries*> relevant(const PageParts& page) {
   std::set<std::pair<std::string, std::string>> cells;
   for (const core::Cell& cell : page.rows.cells) cells.insert({cell.stamp.scene_name, cell.stamp.label()});

@@ -1,4 +1,4 @@
-// The 3-D view's place on the page, and the links to it.
+// The place of the 3-D view on the page, and the links to it.
 #include "reports/element.hpp"
 #include "reports/escape.hpp"
 #include "reports/html_sections.hpp"
@@ -10,7 +10,7 @@ std::string view_section(PageParts& page) {
   if (playbacks.empty()) return "";
   const Playback& first = playbacks.front();
   const std::string picture = playback_picture(first, first.marks.empty() ? -1 : 0);
-  // On paper, and without scripts: a picture of the place that the view would show.
+  // Shown on paper and without scripts: a picture of the place that the view would show.
   std::string marks;
   for (const Playback& playback : playbacks)
     for (const PlaybackMark& mark : playback.marks)

@@ -79,7 +79,7 @@ std::string property(std::string_view name, std::string_view value) {
   return "      <property" + attribute("name", name) + attribute("value", value) + "/>\n";
 }
 
-// Before the cases, as the schema has it.
+// The schema requires the properties before the cases.
 std::string properties(const TraceView& trace) {
   if (!trace.is_judged()) return "";
   std::string out = property("coverage", core::coverage_text(trace.coverage()));

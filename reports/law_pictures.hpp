@@ -1,4 +1,4 @@
-// A small picture of what a law says, beside its sentence on the page.
+// A small picture of a law, shown beside the sentence that explains it.
 #pragma once
 
 #include <span>
@@ -14,13 +14,13 @@ struct LawPicture {
   LawSketch (*draw)();
 };
 
-// Laws of one kind, a file each.
+// The laws of one kind; each kind has a file.
 std::span<const LawPicture> pictures_of_traces();
 std::span<const LawPicture> pictures_of_the_method();
 std::span<const LawPicture> pictures_of_motion();
 std::span<const LawPicture> pictures_of_contacts();
 
-// A law without a picture of its own has none: empty.
+// The picture of a law; empty when there is none.
 std::string law_picture(std::string_view law);
 
 }  // namespace broadside::reports

@@ -23,7 +23,7 @@ struct SketchPoint {
 
 class LawSketch {
  public:
-  // Turned about its center, clockwise.
+  // A box, turned clockwise about its center.
   LawSketch& box(SketchPoint corner, double width, double height, Ink ink = Ink::kBody, double degrees = 0.0);
   LawSketch& ball(SketchPoint center, double radius, Ink ink = Ink::kBody);
   LawSketch& line(SketchPoint from, SketchPoint to, Ink ink = Ink::kLine);
@@ -32,14 +32,14 @@ class LawSketch {
   // A filled outline.
   LawSketch& shape(const std::vector<SketchPoint>& points, Ink ink = Ink::kBody);
   LawSketch& arrow(SketchPoint from, SketchPoint to, Ink ink = Ink::kForce);
-  // From one angle to another about a center, in degrees clockwise from the right, with an arrow's head at the end.
+  // An arc about a center from one angle to another, in degrees clockwise from the right, with an arrowhead at its end.
   LawSketch& turn(SketchPoint center, double radius, double from_degrees, double to_degrees, Ink ink = Ink::kForce);
   LawSketch& dot(SketchPoint at, Ink ink = Ink::kForce);
-  // A small cross: not so.
+  // A small cross: what is drawn here is forbidden.
   LawSketch& no(SketchPoint at);
   // Line with hatching below.
   LawSketch& ground(double y = 60.0, double from = 8.0, double to = 112.0);
-  // Centered on the point; escaped.
+  // Text centered on the point; it is escaped.
   LawSketch& text(SketchPoint at, std::string_view words, Ink ink = Ink::kForce);
 
   // One line of SVG, hidden from screen readers because the sentence beside it says the same.

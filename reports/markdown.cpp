@@ -11,7 +11,7 @@
 namespace broadside::reports {
 namespace {
 
-// Longer names are cut, because they are a mistake or an attack; the page has them in full.
+// Longer names are cut, because they are a mistake or an attack; the page has them whole.
 constexpr std::size_t kNameColumns = 120;
 // Kept free for the remarks on what was left out.
 constexpr std::size_t kReserve = 2'000;
@@ -26,13 +26,13 @@ std::string sentence(std::string_view text) {
 // Collects lines as long as they fit.
 class Comment {
  public:
-  // All of a block or nothing of it.
+  // Adds a block whole or not at all.
   void add(const std::string& block) {
     if (!fits(block)) return;
     text_ += block;
   }
 
-  // A head, then as many rows as fit, then how many did not.
+  // Adds a head, then as many rows as fit, and then how many did not fit.
   void add_rows(const std::string& head, const std::vector<std::string>& rows) {
     if (rows.empty()) return;
     if (!fits(head + rows.front())) {

@@ -36,7 +36,7 @@ std::string base64(const std::vector<Word>& words) {
   return text;
 }
 
-// Coordinates as whole numbers of cells above a corner: 65535 cells over the extent, so an error of half a cell.
+// Maps coordinates to whole numbers of cells above a corner: 65535 cells over the extent, so the error is half a cell.
 struct Grid {
   std::array<double, 3> min{};
   std::array<double, 3> cell{};

@@ -1,4 +1,4 @@
-// What the 3-D view of a report shows of one recorded run: some of its frames, small enough for a page.
+// What the 3-D view of a report shows of one recorded run: a selection of its frames, small enough for a page.
 #pragma once
 
 #include <array>
@@ -14,7 +14,7 @@
 
 namespace broadside::reports {
 
-// Relative to the body's position, in its first orientation, m.
+// Coordinates relative to the body's position, in its first orientation, m.
 struct PlaybackShape {
   std::vector<std::vector<core::Box>> levels;  // octree boxes of level 0, 1, 2; level 0 is one box
   std::vector<core::Vec3> vertices;            // empty when there are too many for a page: then boxes are drawn
@@ -51,7 +51,7 @@ struct Playback {
   core::Box domain;
   core::Vec3 up;  // unit, against gravity
   double dt_s = 0.0;
-  std::uint64_t last_step = 0;  // of the run; the frames are some of its
+  std::uint64_t last_step = 0;  // of the run, of whose frames these are a selection
   std::vector<std::uint32_t> shape_of_body;
   std::vector<PlaybackShape> shapes;
   std::vector<PlaybackFrame> frames;  // rising in step
@@ -64,8 +64,8 @@ std::uint64_t playback_bytes(const Playback& playback);
 // For <script type="application/json">: positions, pairs and contacts as 16-bit whole numbers in base64.
 std::string playbacks_json(const std::vector<Playback>& playbacks);
 
-// One frame as an SVG picture in parallel projection: for paper, and where a browser has no WebGL. The bodies of the
-// mark are drawn strong and named. mark: index into playback.marks, or -1 for the last frame without one.
+// One frame as an SVG picture in parallel projection, for paper and for browsers without WebGL. The bodies of the mark
+// are emphasized and named. mark: index into playback.marks, or -1 for the last frame without a mark.
 std::string playback_picture(const Playback& playback, int mark);
 
 }  // namespace broadside::reports

@@ -17,7 +17,7 @@ using core::Vec3;
 
 constexpr double kWidth = 720.0;
 constexpr double kHeight = 440.0;
-constexpr std::size_t kMostBodies = 400;  // more bodies are a grey heap in a picture of this size
+constexpr std::size_t kMostBodies = 400;  // more bodies are a gray heap in a picture of this size
 
 struct Point {
   double x = 0.0, y = 0.0, depth = 0.0;
@@ -36,7 +36,7 @@ class Projection {
     const double f = along(front_);
     return {0.94 * s - 0.34 * f, -(0.92 * u - 0.13 * s - 0.37 * f), 0.34 * s + 0.86 * f + 0.39 * u};
   }
-  // Whether a side with this outward normal is on the eye's side.
+  // Whether a side with this outward normal faces the eye.
   [[nodiscard]] bool sees(Vec3 outward) const { return (*this)(outward).depth > 0.0; }
 
  private:
@@ -48,7 +48,7 @@ Vec3 corner(const core::Box& box, unsigned k) {
           (k & 4U) != 0 ? box.max.z : box.min.z};
 }
 
-// The box of a body's shape where the body is.
+// The box of a body's shape at the body's pose.
 struct PlacedBox {
   core::Box box;
   Vec3 position;
@@ -133,7 +133,7 @@ std::string playback_picture(const Playback& playback, int mark) {
     }
   }
   if (items.empty()) return "";
-  // Painter's order: far ones first, the marked ones on top of all.
+  // Painter's algorithm: far items first, the marked ones last.
   std::stable_sort(items.begin(), items.end(), [](const Item& a, const Item& b) {
     return a.is_marked != b.is_marked ? b.is_marked : a.depth < b.depth;
   });

@@ -11,10 +11,10 @@
 namespace broadside::reports {
 namespace {
 
-constexpr std::size_t kResamples = 10'000;  // enough that the 2.5 % tail rests on 250 of them
+constexpr std::size_t kResamples = 10'000;  // enough that 250 of them lie in the 2.5 % tail
 constexpr double kTail = 0.025;             // for all looks together
 
-// Draws from a fixed sequence: the state counts up, and splitmix64 scrambles it.
+// Draws from a fixed sequence: the state counts up, and splitmix64 hashes it.
 class Draws {
  public:
   std::size_t below(std::size_t n) { return static_cast<std::size_t>(core::splitmix64(state_++) % n); }
@@ -70,7 +70,7 @@ RatioInterval interval_of(double estimate, std::vector<double> resamples, double
   std::sort(resamples.begin(), resamples.end());
   result.low = quantile(resamples, tail);
   result.high = quantile(resamples, 1.0 - tail);
-  // Of the resamples, those that do not show a difference, plus one, so that no p is zero.
+  // The share of resamples that show no difference; one is added to the count, so that no p is zero.
   const auto share = [&](std::ptrdiff_t against) {
     return std::max((1.0 + static_cast<double>(against)) / (1.0 + static_cast<double>(kResamples)), least_p);
   };

@@ -16,12 +16,12 @@ namespace broadside::reports {
 
 inline constexpr const char* kDefaultTitle = "Collision engines compared";
 
-// A part of the page that was made elsewhere: its text is HTML already, escaped, with ids that start with its own.
+// A part of the page that other code made: its body is escaped HTML, with ids that begin with the part's id.
 struct GuestPart {
   std::string id;     // "paper"
   std::string title;  // plain text
   std::string body;
-  std::string style;  // CSS of its own; the page's is there too
+  std::string style;  // CSS of its own, in addition to the page's
 };
 
 struct ReportOptions {
@@ -29,7 +29,7 @@ struct ReportOptions {
   std::string note;                 // a sentence under the result; empty = none
   std::string command;              // the command line that made the rows; empty = not shown
   std::vector<std::string> repeat;  // more commands for "how to repeat", in order
-  std::string generated_at;         // as printed; empty = left out, and the same rows give the same bytes
+  std::string generated_at;         // printed as given; empty = left out, and then the same rows give the same bytes
   // Data beside the rows, for the page alone.
   std::vector<core::EnergySeries> energy;
   std::vector<Playback> playbacks;
@@ -38,19 +38,20 @@ struct ReportOptions {
   std::vector<GuestPart> guests;
 };
 
-// Built without the page (BROADSIDE_REPORT_HTML=OFF)? Then html_page is empty, and write_html an error that says so.
+// False for a build without the page (BROADSIDE_REPORT_HTML=OFF). Then html_page is empty, and write_html is an error
+// that says so.
 bool has_html_page();
-// Are charts and the 3-D view in this build? Without npm at build time the page has tables and bars alone.
+// Whether this build has charts and the 3-D view. Without npm at build time the page has only tables and bars.
 bool has_page_bundle();
 
-// One self-contained file without any network access: readable with scripts off, from a phone to paper, light or dark.
+// One self-contained file that fetches nothing: readable without scripts, from a phone to paper, light or dark.
 std::string html_page(const core::RunRows& rows, const ReportOptions& options);
 
 // The charts of the page, for files of their own; none where the page was not built.
 std::vector<Chart> page_charts(const core::RunRows& rows, const ReportOptions& options);
 
-// GitHub-flavored Markdown for a comment, at most kMarkdownLimit bytes. What does not fit is left out, the last parts
-// first, and the text says how much.
+// GitHub-flavored Markdown for a comment, at most kMarkdownLimit bytes. Parts that do not fit are left out, the last
+// parts first, and the text says how much is missing.
 constexpr std::size_t kMarkdownLimit = 60'000;
 std::string markdown_text(const core::RunRows& rows, const ReportOptions& options);
 

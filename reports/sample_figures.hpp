@@ -16,8 +16,8 @@ std::vector<double> frame_seconds(const core::Sample& sample);
 // Median frame of each run of a stamp, by the process that ran it.
 std::map<std::uint64_t, ProcessRuns> median_frames(const core::RunRows& rows, const core::Stamp& stamp);
 
-// A stage's times along the frames, over all runs of a stamp: the frames in bins, each with median, p10 and p90 of the
-// values that fall into it (also over runs). stage empty = the whole frame.
+// A stage's times along the frames, over all runs of a stamp. Frames are put into bins; each bin has the median, p10
+// and p90 of its values from all runs. stage empty = the whole frame.
 struct OverFrames {
   std::vector<double> frame;  // middle of each bin
   std::vector<double> median, p10, p90;

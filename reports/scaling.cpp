@@ -17,7 +17,7 @@ struct Member {
   std::uint64_t count = 0;
 };
 
-// "freefall:bunny:50" -> freefall:bunny, 50; no count = no family.
+// Splits "freefall:bunny:50" into freefall:bunny and 50; a name without a count belongs to no family.
 Member member_of(const std::string& scene) {
   const std::size_t colon = scene.rfind(':');
   Member member;
@@ -28,7 +28,7 @@ Member member_of(const std::string& scene) {
   return member;
 }
 
-// The t that is exceeded with a chance of 5 %, by bisection of its own distribution.
+// The t that is exceeded, on either side, with a probability of 5 %; found by bisection.
 double student_95(double degrees) {
   double low = 0.0;
   double high = 1000.0;

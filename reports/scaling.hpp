@@ -24,11 +24,11 @@ struct ScalingSeries {
   PowerLaw law;
 };
 
-// Scenes belong to one family when their names differ in the whole number at their end alone. Only admitted times, and
-// only where a family has two counts or more.
+// Scenes belong to one family when their names differ only in the whole number at their end. Only admitted times are
+// used, and only families with two counts or more.
 std::vector<ScalingSeries> scaling_series(const core::RunRows& rows);
 
-// n and seconds positive and of one length, at least two different n.
+// n and seconds are positive and of the same length, with at least two different n.
 PowerLaw fit_power_law(const std::vector<double>& n, const std::vector<double>& seconds);
 
 }  // namespace broadside::reports

@@ -49,7 +49,7 @@ void add_verdicts(SceneView& scene, TraceView& trace, const core::CellVerdicts& 
   }
 }
 
-// "Not applicable" for want of a baseline is dropped once a verdict with a baseline exists.
+// Drops "not applicable" for lack of a baseline when there is also a verdict with a baseline.
 void settle(TraceView& trace, std::size_t columns) {
   trace.verdicts.resize(columns);
   for (std::vector<const core::Verdict*>& said : trace.verdicts) {

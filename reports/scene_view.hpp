@@ -1,4 +1,4 @@
-// The rows of a run arranged for reading: scene by scene, engines down, validators across.
+// The rows of a run arranged as tables: for each scene engines are rows and validators are columns.
 #pragma once
 
 #include <map>
@@ -15,7 +15,7 @@ namespace broadside::reports {
 // One line of the verdict matrix: one trace, or a cell that left none. Pointers are into the rows it was made from.
 struct TraceView {
   core::Stamp stamp;
-  std::string label;                 // the stamp's, with the trace's file name where two would be alike
+  std::string label;                 // the stamp's, with the trace's file name where two labels would be equal
   const core::Cell* cell = nullptr;  // null for a trace that was judged without a recorded cell
   std::string trace_file;
   std::vector<std::string> baselines;  // labels, in order of appearance
@@ -23,16 +23,16 @@ struct TraceView {
   // judged against two baselines has its verdicts without a baseline twice). Empty = no verdict.
   std::vector<std::vector<const core::Verdict*>> verdicts;
 
-  bool is_simulation = false;                      // its motion has something to prove
+  bool is_simulation = false;                      // it moved bodies, so its motion needs a proof
   std::map<std::string, std::string> declaration;  // what the engine declared of itself
 
   [[nodiscard]] bool is_judged() const;
   [[nodiscard]] core::Coverage coverage() const;
   // Whether a law that ties motion to forces passed on a body that moved.
   [[nodiscard]] bool has_proven_motion() const;
-  // The laws that met nothing, those that share a reason together: the reason, and the laws.
+  // The laws that had nothing to judge, grouped by reason: the reason, and the laws.
   [[nodiscard]] std::vector<std::pair<std::string, std::vector<std::string>>> not_applied() const;
-  // Text for the cells of a line that has no verdict: "not measured: no device", "recorded, not judged".
+  // The words for the cells of a line without verdicts: "not measured: no device", "recorded, not judged".
   [[nodiscard]] std::string absence() const;
 };
 
@@ -42,11 +42,11 @@ struct SceneView {
   std::vector<std::string> validators;  // columns, in order of first appearance
   std::vector<TraceView> traces;
   std::vector<Timing> timings;
-  std::map<std::string, std::string> facts;  // notes that every cell with notes shares word for word
+  std::map<std::string, std::string> facts;  // notes with the same text in every cell that has notes
 };
 
 // What the scene's meshes stand in for, from the notes of its cells (a note "stand-in", or one that says "STAND-IN");
-// empty when they are the meshes that were asked for.
+// empty when the meshes are those that were asked for.
 std::string stand_in(const SceneView& scene);
 
 // The rows must outlive the views.

@@ -1,4 +1,4 @@
-// Summaries of many measurements: median, quartiles, tails, spread. What is left out is counted.
+// Summaries of many measurements: median, quartiles, tails, spread. Values that are left out are counted.
 #pragma once
 
 #include <cstdint>
@@ -7,8 +7,8 @@
 
 namespace broadside::reports {
 
-// Of the finite values. Quantiles interpolate linearly between order statistics (Hyndman and Fan 1996, definition 7).
-// All figures are NaN when there is no finite value.
+// Computed from the finite values. Quantiles interpolate linearly between order statistics (Hyndman and Fan 1996,
+// definition 7). All figures are NaN when there is no finite value.
 struct Summary {
   std::uint64_t count = 0;       // finite values
   std::uint64_t not_finite = 0;  // NaN or infinite ones, left out
@@ -17,8 +17,8 @@ struct Summary {
   // Sample standard deviation (n - 1); infinite with fewer than two values, so that a single measurement does not
   // look exact.
   double deviation = 0.0;
-  // (q3 - q1) / median; infinite with fewer than two values. Quartiles, because a few frames that the machine
-  // interrupted should not decide it; the tails p5 and p95 are reported too.
+  // (q3 - q1) / median; infinite with fewer than two values. It uses quartiles so that a few frames that the machine
+  // interrupted do not decide it; the tails p5 and p95 are reported too.
   double relative_spread = 0.0;
 };
 

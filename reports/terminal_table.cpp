@@ -17,7 +17,7 @@ std::string padded(const std::string& text, std::size_t columns) {
   return used < columns ? text + std::string(columns - used, ' ') : text;
 }
 
-// Columns as wide as their widest entry; the last takes what is left of the line and is cut there.
+// Columns are as wide as their widest entry; the last one gets the rest of the line and is cut at its end.
 std::string table(const std::vector<Line>& lines) {
   std::vector<std::size_t> widths;
   for (const Line& line : lines) {
@@ -87,7 +87,7 @@ std::string one_trace(const SceneView& scene, const TraceView& trace) {
   return printable(scene.name) + ": " + name_of(trace) + "\n" + table(lines) + coverage_lines(trace, "");
 }
 
-// Blocks of as many traces as fit beside the validators' names.
+// The matrix in blocks; a block has as many traces as fit beside the names of the validators.
 std::string matrix(const SceneView& scene) {
   constexpr std::size_t kCellWidth = 8;
   std::size_t name_width = 9;
@@ -119,7 +119,7 @@ std::string matrix(const SceneView& scene) {
   return printable(scene.name) + "\n" + text;
 }
 
-// Of a law that a failed verdict sums up.
+// The line of a law that is part of a failed verdict.
 std::string part_line(const std::string& label, const core::Verdict& whole, const core::Verdict& part) {
   const Compared values = compared(part.measured, part.limit, part.unit);
   return label + ": " + whole.validator + ", " + part.validator + ": " + std::to_string(part.violations) + " of " +

@@ -10,9 +10,9 @@ namespace broadside::reports {
 
 constexpr std::size_t kTerminalColumns = 100;
 
-// One trace: a line per validator with outcome, measured value, limit and place. Several: validators down, traces
-// across under numbers that a list explains. Below it, how many laws applied. Ends with a newline; "no verdicts" when
-// there are none.
+// For one trace: a line per validator with outcome, measured value, limit and place. For several: a line per validator
+// and a column per trace, under numbers that a list explains. Below that, how many laws applied. Ends with a newline;
+// "no verdicts" when there are none.
 std::string verdict_table(const std::vector<core::CellVerdicts>& verdicts);
 
 // One line per cell: engine, state, frames, wall time, and why it is absent or where its trace is.

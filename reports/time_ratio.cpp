@@ -70,8 +70,9 @@ std::string why_not(const Runs* base, const Runs* head) {
   return "";
 }
 
-// Pairs have the same names on both sides and equally many runs, and only names that were recorded make one. When there
-// are too few pairs to show anything, they are taken as separate processes, which need fewer.
+// Whether processes are compared in pairs: pairs have the same names on both sides and equally many runs, and only
+// names that were recorded can pair. When there are too few pairs to show anything, the processes are compared
+// separately, because that needs fewer.
 bool is_paired(const Runs& base, const Runs& head) {
   return enough_processes(base.by_process.size(), head.by_process.size(), true) &&
          base.by_process.size() == head.by_process.size() && !base.by_process.contains(0) &&
@@ -91,7 +92,7 @@ std::vector<ProcessRuns> pairs_of(const Runs& base, const Runs& head) {
   return pairs;
 }
 
-// The ratio with its p-values; the speed is decided over all cells together.
+// The ratio with its p-values. Which speed it means is decided later, over all cells together.
 RatioInterval measure(const Runs& base, const Runs& head, double delta, std::uint32_t looks, TimeRatio& r) {
   r.is_paired = is_paired(base, head);
   const RatioInterval interval = r.is_paired ? paired_interval(pairs_of(base, head), delta, looks)

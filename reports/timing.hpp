@@ -1,4 +1,4 @@
-// The samples of one stamp, pooled: one line of a table of times.
+// The samples of one stamp taken together: one line of a table of times.
 #pragma once
 
 #include <string>
@@ -23,7 +23,7 @@ struct Timing {
   Summary frame;                     // the stage "frame", or the sum of the stages for an engine without one
   bool frame_is_sum = false;
   Summary fps;  // one value per repetition: its frames over the sum of their times
-  // Not admitted when any of its samples is not: a stamp with one wrong answer has no trustworthy time.
+  // Not admitted when any of its samples is not: with one wrong answer no time of the stamp can be trusted.
   Admission admission;
 };
 

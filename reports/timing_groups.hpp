@@ -8,7 +8,7 @@
 
 namespace broadside::reports {
 
-// Engines that report the same stages did the same kind of work; only those share a scale.
+// Engines that report the same stages did the same kind of work; only such engines share a scale.
 struct TimingGroup {
   std::vector<std::string> stages;
   std::vector<const Timing*> timings;

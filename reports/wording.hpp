@@ -1,4 +1,4 @@
-// The words for outcomes, places and absences, alike in every kind of report.
+// The words for outcomes, places and absences, the same in every kind of report.
 #pragma once
 
 #include <string>

@@ -65,7 +65,7 @@ exact::RigidMotion motion_of(const Json& body) {
   return {pose_of(body), point(body.at("displacement")), point(body.at("rotation"))};
 }
 
-// read(json) makes the case, of a file of this format.
+// Reads a file of this format; read(json) makes the case from its content.
 template <typename Case, typename Read>
 core::Result<Case> read_saved(const std::filesystem::path& file, std::string_view format, const Read& read) {
   std::ifstream in(file);

@@ -1,4 +1,4 @@
-// One pair of bodies, still or moving, as a file, so that what a library did with it can be seen again.
+// One pair of bodies, still or moving, saved as a file, so that a library's answer to it can be repeated.
 #pragma once
 
 #include <filesystem>

@@ -9,8 +9,8 @@
 namespace broadside::bench {
 namespace {
 
-// Bodies of one scene. A measure call takes a pose for every body of the scene, so few are cheap; but meshes that take
-// long to load should be loaded seldom.
+// How many pairs one scene holds. A measure call takes a pose for every body of the scene, so scenes are small; scenes
+// of meshes are larger, because meshes that take long to load should be loaded seldom.
 constexpr std::size_t kPairsPerScene = 64;
 constexpr std::size_t kMeshPairsPerScene = 1024;
 

@@ -1,4 +1,4 @@
-// The child process that asks an engine about pairs and may crash on one. Its answers lie in shared memory.
+// The child process that asks an engine about pairs and may crash on one. It writes its answers to shared memory.
 #pragma once
 
 #include <cstddef>
@@ -13,7 +13,7 @@
 
 namespace broadside::bench {
 
-// Asks about pairs [first, last); an answer has the index of its pair. Returns the exit code.
+// Asks about pairs [first, last); the answer to pair k is answers[k]. Returns the exit code.
 int ask_pairs(const CellSpec& cell, const PairSource& source, const std::vector<TestPair>& pairs, std::size_t first,
               std::size_t last, std::span<PairAnswer> answers, ChildReport& report);
 

@@ -45,7 +45,7 @@ core::Status draw_in_children(std::uint64_t count, std::uint32_t processes,
     }
     if (child == 0) {
       die_with(parent);
-      // Dealt out in turns, so that slow separations are spread over all processes.
+      // Each process takes every step-th pair, so that slow separations are spread over all processes.
       for (std::uint64_t k = first; k < count; k += step) {
         draw_one(k);
         drawn[first].count = drawn[first].count + 1;

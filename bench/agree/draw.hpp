@@ -1,4 +1,4 @@
-// Many pairs with the arbiter's answers, drawn by several processes: each pair follows from its index alone.
+// Draws many pairs with the arbiter's answers, in several processes: each pair follows from its index alone.
 #pragma once
 
 #include <cstdint>
@@ -10,13 +10,14 @@
 
 namespace broadside::bench {
 
-// draw_one(k) for k from 0 to count - 1, in forked processes: it writes to memory that they share. Must be called
-// before this process has started a thread. progress is called with the number that is done.
+// Calls draw_one(k) for k from 0 to count - 1 in forked processes; it must write to memory that they share. Must be
+// called before this process has started a thread. progress is called with the number of pairs done.
 core::Status draw_in_children(std::uint64_t count, std::uint32_t processes,
                               const std::function<void(std::uint64_t)>& draw_one,
                               const std::function<void(std::uint64_t)>& progress);
 
-// Pairs 0 to count - 1. Must be called before this process has started a thread. progress is called with pairs done.
+// Draws pairs 0 to count - 1. Must be called before this process has started a thread. progress is called with the
+// number of pairs done.
 core::Result<std::vector<TestPair>> draw_pairs(PairSource& source, std::uint64_t count, std::uint32_t processes,
                                                const std::function<void(std::uint64_t)>& progress);
 

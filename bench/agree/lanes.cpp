@@ -26,9 +26,9 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// Processor seconds for making an engine and its shapes: trees of 700,000 triangles take some ten.
+// Processor seconds for making an engine and its shapes: trees of 700,000 triangles take some ten seconds.
 constexpr double kLoad_s = 600.0;
-// A query that waits forever uses no processor time; this much elapsed time ends it too.
+// A query that blocks uses no processor time, so this much elapsed time beyond the limit ends it too.
 constexpr double kAsleep_s = 60.0;
 
 double processor_seconds_of(pid_t process) {
@@ -46,8 +46,8 @@ std::string without_path(const std::string& line) {
   return line.substr(slash + 1);
 }
 
-// A process of its own that works on a range of pairs. When it dies, another one goes on behind the pair at which it
-// died.
+// A child process that works on a range of pairs. When it dies, a new one continues with the pair after the one at
+// which it died.
 class Lane {
  public:
   Lane(std::size_t first, std::size_t last) : next_(first), last_(last), report_(1) {}
@@ -72,7 +72,7 @@ class Lane {
       close(ends[0]);
       close(ends[1]);
       limit_this_process(memory_mib);
-      // No destructors and no exit handlers: they belong to the parent.
+      // _exit runs no destructors and no exit handlers: they belong to the parent.
       _exit(live(report_[0], next_, last_));
     }
     close(ends[1]);
@@ -95,7 +95,7 @@ class Lane {
     kill(child_, SIGKILL);
   }
 
-  // Reads what the child reports. True when it has ended; then ending() says how.
+  // Reads what the child writes to stderr. True when it has ended; then fate() and last_words() say how.
   bool listen() {
     std::array<char, 4096> buffer;
     const ssize_t got = read(pipe_end_, buffer.data(), buffer.size());
@@ -112,7 +112,7 @@ class Lane {
   [[nodiscard]] bool ended_with(int exit_code) const { return WIFEXITED(status_) && WEXITSTATUS(status_) == exit_code; }
   [[nodiscard]] bool died_in_a_query() { return report().is_querying; }
 
-  // How the process ended: the answer for the pair that it was measuring.
+  // How the process ended: this is the answer for the pair that it was measuring.
   [[nodiscard]] Asked fate() const {
     if (timed_out_) return Asked::kTimedOut;
     return WIFSIGNALED(status_) && WTERMSIG(status_) == SIGABRT ? Asked::kAborted : Asked::kCrashed;
@@ -159,7 +159,7 @@ class Lane {
   std::string said_;
 };
 
-// Waits until some child reports something or ends, but never so long that a query runs far beyond its limit.
+// Waits until a child writes something or ends, but never so long that a query runs far beyond its limit.
 std::vector<Lane*> wait_for(std::vector<std::unique_ptr<Lane>>& lanes, double seconds_per_query) {
   std::vector<pollfd> waiting;
   for (const auto& lane : lanes)

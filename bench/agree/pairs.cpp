@@ -22,10 +22,10 @@ using core::Vec3;
 using datasets::RandomStream;
 using exact::Point;
 
-constexpr int kShapes = 24;       // of each kind; plates and needles have a third as many
-constexpr int kOrientations = 8;  // of meshes
-// Sides of plates and needles against their others. Below this ratio a float's resolution decides, and no longer the
-// shape.
+constexpr int kShapes = 24;       // of each kind; there are a third as many plates and needles
+constexpr int kOrientations = 8;  // that are drawn for meshes
+// Ratio of the short sides of plates and needles to their long sides. Below this ratio the answer depends on the
+// resolution of floats, and no longer on the shape.
 constexpr double kThin = 0.02;
 
 std::array<double, 3> sides(RandomStream& random, Degeneracy form) {
@@ -39,7 +39,7 @@ std::array<double, 3> sides(RandomStream& random, Degeneracy form) {
   return s;
 }
 
-// To a grid on which sums and halves are exact in float.
+// Rounds to a grid on which sums and halves are exact in float.
 constexpr double kGrid_m = 1.0 / 256.0;
 double on_grid(double m) {
   return kGrid_m * std::round(m / kGrid_m);
@@ -88,7 +88,7 @@ struct PairSource::Draw {
     const auto d = random.direction();
     return {d.x, d.y, d.z};
   }
-  // Evenly over the logarithm.
+  // Evenly distributed in the logarithm.
   double logarithmic(double low, double high) {
     const double share = random.unit();
     return low * std::pow(high / low, share);
@@ -150,7 +150,7 @@ core::Result<PairSource> PairSource::of_case(const std::vector<std::shared_ptr<c
 TestPair PairSource::pair(std::uint64_t index) {
   Draw draw{RandomStream(core::splitmix64(seed_ ^ core::splitmix64(index + 1)))};
   TestPair pair;
-  // Two fifths general, the rest evenly over the degeneracies that this kind has.
+  // Two fifths are general pairs; the rest is spread evenly over the degeneracies that this kind has.
   const std::uint32_t lot = draw.random.below(20);
   if (lot >= 8) pair.degeneracy = static_cast<Degeneracy>(1 + (lot - 8) / 3);
   const std::uint32_t special = pair.degeneracy == Degeneracy::kThinPlate ? plates_
@@ -220,14 +220,14 @@ void PairSource::place(TestPair& pair, Draw& draw, std::uint64_t index) {
     offset = exact::to_point(core::rotate(pair.pose_a.orientation, beside));
   }
   const double t = move_to(pair, along, offset, target);
-  // Bodies parallel to the axes lie on the grid (middles on half of it), but for what rounding left of t: such boxes
-  // touch exactly.
+  // Boxes parallel to the axes are put on the grid (their centers on half of it), except for what rounding left of t,
+  // so they touch exactly.
   if (kind_ == PairKind::kKissing && index % 3 == 0)
     pair.pose_b.position = to_core(exact::to_point(pair.pose_a.position) + offset + 0.5 * on_grid(2.0 * t) * along);
 }
 
-// Newton's method from outside. Along a line the signed distance of convex bodies is convex, so no step goes too far.
-// For meshes it only comes near the target, so the separation reached is measured afterwards.
+// Newton's method, started from outside. Along a line the signed distance of convex bodies is convex, so no step goes
+// too far. Meshes only come near the target, so the separation that was reached is measured afterwards.
 double PairSource::move_to(TestPair& pair, Point along, Point offset, double target) {
   double t = reach_m_[pair.mesh_a] + reach_m_[pair.mesh_b] + std::max(0.0, target);
   const Point origin = exact::to_point(pair.pose_a.position);
@@ -259,7 +259,7 @@ void PairSource::arbitrate(TestPair& pair) {
     pair.distance_m = found.distance_m;
     pair.normal = found.normal;
   } else {
-    tree(pair.mesh_a, pair.pose_a.orientation);  // both exist before either is referred to
+    tree(pair.mesh_a, pair.pose_a.orientation);  // builds both trees before a reference to either is taken
     const exact::TriangleTree& b = tree(pair.mesh_b, pair.pose_b.orientation);
     const exact::TriangleTree& a = tree(pair.mesh_a, pair.pose_a.orientation);
     const exact::Nearest near = exact::nearest_of_trees(a, pair.pose_a.position, b, pair.pose_b.position);
@@ -268,7 +268,7 @@ void PairSource::arbitrate(TestPair& pair) {
   }
   const double s = std::min(least_half_m_[pair.mesh_a], least_half_m_[pair.mesh_b]);
   const double d = pair.distance_m;
-  // Meshes that meet have no depth, so deep and shallow cannot be told apart.
+  // Overlapping meshes have no depth here, so deep and shallow cannot be told apart.
   if (!is_convex_ && d == 0.0) {
     pair.separation = Separated::kDeep;
     return;

@@ -1,5 +1,5 @@
-// Pairs of bodies for the agreement study: random, but spread over separations and degeneracies on purpose, each with
-// the arbiter's answer.
+// Pairs of bodies for the agreement study: random, but deliberately spread over separations and degeneracies. Each pair
+// has the arbiter's answer.
 #pragma once
 
 #include <cstdint>
@@ -24,13 +24,13 @@ enum class Degeneracy { kNone, kThinPlate, kNeedle, kParallelFaces, kCoincidentC
 inline constexpr std::string_view kDegeneracies[] = {"general", "thin plate", "needle", "parallel faces",
                                                      "coincident centers"};
 
-// By signed distance, in units of s, the least half side of both bodies' boxes: beyond -s/4, to the touching band, in
-// it, to s, and beyond.
+// Classes by signed distance. With s the least half side of both bodies' boxes, the classes are: below -s/4, from there
+// to the touching band, in the band, from there to s, and above s.
 enum class Separated { kDeep, kShallow, kTouching, kNear, kFar };
 inline constexpr std::string_view kSeparations[] = {"deep", "shallow", "touching band", "near", "far"};
 
-// Half width of the touching band, and by how much an answer may be off, m: a tenth of the method's slop of 1 mm
-// (P-Table 1), below which no response differs.
+// Half the width of the touching band, and the error that an answer may have, m: a tenth of the method's slop of 1 mm
+// (P-Table 1). Below the slop no response differs.
 inline constexpr double kTouchingBand_m = 1e-4;
 
 struct TestPair {
@@ -39,7 +39,7 @@ struct TestPair {
   core::Pose pose_a;
   core::Pose pose_b;
   Degeneracy degeneracy = Degeneracy::kNone;
-  // The arbiter's: signed for convex bodies, 0 where the surfaces of meshes meet.
+  // The arbiter's distance: signed for convex bodies, 0 where the surfaces of meshes meet.
   double distance_m = 0.0;
   exact::Point normal;  // unit, from B to A; zero where meshes meet
   Separated separation = Separated::kFar;
@@ -48,13 +48,13 @@ struct TestPair {
 // The same kind, seed and index always give the same pair.
 class PairSource {
  public:
-  // mesh: a name of the catalogue for both bodies, with kMeshes alone; empty = lumpy bodies of 320 triangles.
+  // mesh: a name of the catalogue that both bodies use, with kMeshes alone; empty = lumpy bodies of 320 triangles.
   static core::Result<PairSource> make(PairKind kind, std::uint64_t seed, const std::string& mesh);
   // A source of one given pair.
   static core::Result<PairSource> of_case(const std::vector<std::shared_ptr<const core::Mesh>>& meshes, bool is_convex);
 
   TestPair pair(std::uint64_t index);
-  // Sets the arbiter's answer for a pair whose poses are set.
+  // Computes the arbiter's answer for a pair whose poses are set.
   void arbitrate(TestPair& pair);
 
   [[nodiscard]] const std::vector<std::shared_ptr<const core::Mesh>>& meshes() const { return meshes_; }
@@ -78,7 +78,7 @@ class PairSource {
   std::vector<double> reach_m_;       // farthest vertex from the origin
   std::vector<double> least_half_m_;  // least half side of the box
   std::vector<exact::ConvexCore> cores_;
-  // Turned meshes: few orientations each, because a tree of a large mesh takes a second to build.
+  // Trees of turned meshes. Each mesh has few orientations, because a tree of a large mesh takes a second to build.
   std::vector<std::pair<core::Quat, std::unique_ptr<exact::TriangleTree>>> trees_;
   std::vector<std::uint32_t> mesh_of_tree_;
   // Ranges of meshes_: general shapes first, then plates, then needles.

@@ -58,7 +58,7 @@ OrderedJson bin_json(const AgreementBin& bin) {
           {"median_s", std::isnan(median) ? OrderedJson(nullptr) : OrderedJson(median)}};
 }
 
-// Over all separations; the report draws it.
+// Counts by decade, summed over all separations. The report draws them as a histogram.
 template <std::size_t N>
 std::string histogram_text(const AgreementTable& table, std::array<std::uint64_t, N> AgreementBin::*of) {
   std::string text;

@@ -30,9 +30,9 @@ double angle_between(core::Vec3 n, Point truth) {
   return std::atan2(std::sqrt(dot(c, c)), dot(p, truth));
 }
 
-// A wrong direction costs as much as the gap that it shows is too small: bodies d apart are at least d cos(t) apart
-// along a direction that is off by t. For convex bodies the gap along a direction is known; for meshes the angle bounds
-// it.
+// A wrong direction is judged by how much it underestimates the gap: bodies at distance d are at least d cos(t) apart
+// along a direction that is off by t. For convex bodies the gap along a direction is computed; for meshes the angle
+// bounds it.
 bool shows_the_gap(const PairSource& source, const TestPair& pair, Point n) {
   const double least = pair.distance_m - kTouchingBand_m;
   if (source.has_depth()) return -source.overlap_along(pair, n) >= least;
@@ -41,7 +41,7 @@ bool shows_the_gap(const PairSource& source, const TestPair& pair, Point n) {
 
 Agreement judge_apart(const PairSource& source, const TestPair& pair, const core::Separation& s) {
   if (s.is_touching) return Agreement::kExtra;
-  if (std::isnan(s.distance_m)) return Agreement::kAgree;  // an engine that tells no distance says what it can
+  if (std::isnan(s.distance_m)) return Agreement::kAgree;  // an engine that gives no distance is right with the flag
   if (!is_number(s)) return Agreement::kNoNumber;
   if (std::abs(s.distance_m - pair.distance_m) > kTouchingBand_m) return Agreement::kDistanceOff;
   if (is_zero(s.normal)) return Agreement::kAgree;

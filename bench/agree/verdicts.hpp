@@ -13,16 +13,16 @@
 
 namespace broadside::bench {
 
-// Bodies in the touching band are only required to get an answer: the sign is noise there.
+// Inside the touching band the sign of the distance is noise, so there an engine only has to answer.
 enum class Agreement {
   kAgree,
   kTouchingBand,
-  kDistanceOff,  // apart, by more than kTouchingBand_m
+  kDistanceOff,  // apart, and the distance is off by more than kTouchingBand_m
   kDepthOff,     // overlapping: the depth is not the least one
-  kNormalOff,    // bodies overlap along it by more than the least depth; or it is not the direction between them
-  kConvention,   // the same normal turned round
-  kMissed,       // says apart where they overlap
-  kExtra,        // says touching where they are apart
+  kNormalOff,    // parting the bodies along it takes more than the least depth; or it is not the direction between them
+  kConvention,   // the right normal with the opposite sign
+  kMissed,       // the engine says apart, and the bodies overlap
+  kExtra,        // the engine says touching, and the bodies are apart
   kNoNumber,     // NaN, or touching without depth and direction
   kThrew,
   kAborted,
@@ -54,7 +54,7 @@ struct AgreementTable {
 
 Agreement judge(const PairSource& source, const TestPair& pair, const PairAnswer& answer);
 
-// One verdict a pair in `verdicts`.
+// `verdicts` gets one verdict for each pair.
 AgreementTable tabulate(const PairSource& source, const std::vector<TestPair>& pairs,
                         const std::vector<PairAnswer>& answers, std::vector<Agreement>& verdicts);
 
@@ -62,7 +62,7 @@ AgreementTable tabulate(const PairSource& source, const std::vector<TestPair>& p
 std::vector<core::DefectHits> defects_met(std::string_view engine_label, PairKind kind,
                                           const std::vector<Agreement>& verdicts);
 
-// "19876 agree, 3 abort; median 1.2 us": only what is not zero.
+// "19876 agree, 3 abort; median 1.2 us": only the counts that are not zero.
 std::string agreement_text(const AgreementBin& bin);
 
 }  // namespace broadside::bench

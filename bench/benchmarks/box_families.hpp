@@ -20,10 +20,10 @@ struct BoxSet {
   std::string path;
   std::uint32_t count;
   std::vector<core::Box> (*make)(std::uint32_t count, double value);
-  double value;      // what the sweep varies; 0 where nothing is
+  double value;      // the property that the sweep varies; 0 where none is
   std::string spec;  // a name of datasets::make_box_stream, instead of `make`
 
-  // None where the set cannot be made here: a mesh that the machine has not.
+  // Empty where the set cannot be made on this machine, because it lacks the mesh.
   [[nodiscard]] std::vector<core::Box> boxes() const {
     if (spec.empty()) return make(count, value);
     auto stream = datasets::make_box_stream(spec, kSeed);
@@ -31,7 +31,7 @@ struct BoxSet {
   }
 };
 
-// The three kinds of work to race on, over the count of boxes.
+// The three kinds of box sets of the race, at each of these counts.
 inline std::vector<BoxSet> race_sets(const std::vector<std::uint32_t>& counts) {
   std::vector<BoxSet> sets;
   for (const std::uint32_t n : counts) {
@@ -54,7 +54,7 @@ inline std::vector<BoxSet> hard_sets() {
   return sets;
 }
 
-// One property varied at a fixed count: a cliff shows as a step in the time a box.
+// One property varied at a fixed count: a sudden slowdown shows as a step in the time per box.
 inline std::vector<BoxSet> sweep_sets(std::uint32_t count) {
   std::vector<BoxSet> sets;
   const auto add = [&](const char* name, const char* value, auto make) {

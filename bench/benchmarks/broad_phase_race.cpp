@@ -6,8 +6,8 @@
 // take_ms and find_ms are the two parts of the time; putting the pairs in canonical order is order_ms. An engine whose
 // pairs differ from those of octree-cpu, or for octree-cpu from those of Embree, is not timed.
 //
-// Machines that others use too: --benchmark_enable_random_interleaving=true --benchmark_repetitions=5, and compare
-// medians of one run.
+// On machines that other programs use too, pass --benchmark_enable_random_interleaving=true --benchmark_repetitions=5,
+// and compare medians of one run.
 #include <benchmark/benchmark.h>
 
 #include <chrono>
@@ -44,7 +44,7 @@ core::Result<core::PairSet> pairs_of(core::BroadPhase& broad, const Boxes& boxes
   return broad.read_back();
 }
 
-// The digest by an engine that shares no code with the one that is timed.
+// The digest that the engine must find, computed by an engine that shares no code with it.
 std::uint64_t expected_digest(const BoxSet& set, bool is_for_octree) {
   static std::map<std::pair<std::string, bool>, std::uint64_t> known;
   const auto [at, is_new] = known.try_emplace({set.path, is_for_octree}, 0);
@@ -59,7 +59,7 @@ std::uint64_t expected_digest(const BoxSet& set, bool is_for_octree) {
   return at->second;
 }
 
-// Once for all repetitions: on a million boxes it takes as long as what is timed.
+// Checked once for all repetitions, because on a million boxes a check takes as long as the timed work.
 bool is_right(core::BroadPhase& broad, const Racer& racer, const BoxSet& set) {
   static std::map<std::pair<std::string, std::string>, bool> known;
   const auto [at, is_new] = known.try_emplace({set.path, std::string(racer.name)}, false);
@@ -73,7 +73,7 @@ bool is_right(core::BroadPhase& broad, const Racer& racer, const BoxSet& set) {
 
 enum class Work { kScratch, kMoving };
 
-// Frames forward and then backward, so that every step is a small one.
+// The frames run forward and then backward, so that every step is a small motion.
 std::vector<Boxes> moving_frames(const Boxes& boxes) {
   constexpr std::size_t kFrames = 4;
   std::vector<Boxes> frames{boxes};
@@ -107,7 +107,7 @@ void race(benchmark::State& state, const Racer& racer, const BoxSet& set, Work w
     return;
   }
   const std::vector<std::uint8_t> is_static(boxes.size(), 0);
-  // On a GPU the first find of a set may have too little memory for its pairs and is repeated with more.
+  // On a GPU the first find of a set may have too little memory for its pairs; then it is repeated with more.
   const bool is_on_gpu = racer.engine.ends_with("-gpu");
   if ((work == Work::kMoving || is_on_gpu) && (!broad->load(boxes, is_static).ok() || !broad->find().ok())) {
     state.SkipWithError("failed");

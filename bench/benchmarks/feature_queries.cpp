@@ -29,7 +29,7 @@ struct Query {
   exact::TouchTime truth;
 };
 
-// near: points move by a tenth of the features' size, about where they touch.
+// near: points move by a tenth of the features' size, near the place where they touch.
 std::vector<Query> draw(continuous::FeatureKind kind, const std::string& which) {
   std::vector<Query> out;
   datasets::RandomStream random(core::splitmix64(static_cast<std::uint64_t>(kind) + which.size()));
@@ -49,7 +49,7 @@ std::vector<Query> draw(continuous::FeatureKind kind, const std::string& which) 
   return out;
 }
 
-// Candidates of a moving surface, evenly out of all of them.
+// A sample of the candidates of a moving surface, evenly spaced in their list.
 std::vector<Query> sample(continuous::FeatureKind kind, const std::string& motion) {
   const auto surface = datasets::make_motion(motion + ":20000").value();
   const auto features = continuous::features_of(surface);

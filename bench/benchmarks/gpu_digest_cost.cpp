@@ -1,6 +1,6 @@
-// What recording digests costs a frame of octree-gpu: blocks of frames with and without it take turns within one
-// simulation, so that both kinds see the same bodies. A recorded frame goes to a trace as `broadside run --record
-// digest` sends it. Prints one JSON line a scene.
+// Measures what recording digests adds to a frame of octree-gpu: blocks of frames with and without it alternate within
+// one simulation, so that both kinds see the same bodies. A recorded frame goes to a trace as `broadside run --record
+// digest` sends it. Prints one JSON line for each scene.
 //   broadside_gpu_digest_cost FOLDER SCENE[/off] WARM_UP_FRAMES BLOCKS...    /off: without the vertex stage
 #include <algorithm>
 #include <chrono>
@@ -54,8 +54,8 @@ class Race {
     for (int block = 0; block < 2 * blocks; ++block) {
       const bool records = block % 2 == 1;
       std::vector<double>& frame_us = records ? recorded_us_ : plain_us_;
-      // The first two frames of a block are not counted: the engine did not know yet that their digests would be asked
-      // for.
+      // The first two frames of a block are not counted, because the engine did not know yet that their digests would
+      // be read.
       for (int k = 0; k < kBlockFrames + 2; ++k) {
         const Clock::time_point start = Clock::now();
         if (core::Status s = pipeline_.step(scene_.dt_s); !s) return s;
@@ -80,7 +80,7 @@ class Race {
   }
 
   void tell(const std::string& name) const {
-    // Ratios of neighboring blocks, because bodies change little from one to the next.
+    // Ratios of neighboring blocks are taken, because bodies change little from one block to the next.
     std::vector<double> extra;
     for (std::size_t k = 0; k + kBlockFrames <= plain_us_.size(); k += kBlockFrames) {
       const auto of = [k](const std::vector<double>& all) {
@@ -116,7 +116,7 @@ class Race {
   gpu::Pipeline pipeline_;
   std::vector<double> plain_us_;
   std::vector<double> recorded_us_;
-  std::vector<double> plain_gpu_us_;  // of the GPU's clock
+  std::vector<double> plain_gpu_us_;  // by the GPU's clock
   std::vector<double> recorded_gpu_us_;
   std::map<std::string, StageTimes> stage_us_;
 };

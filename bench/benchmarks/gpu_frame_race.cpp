@@ -1,6 +1,7 @@
-// What the GPU's broad phase keeps from frame to frame, and what it hands on: boxes that move little, a static world,
-// pairs in chunks. Each mode beside the plain one on the same boxes, and equal digests of what both found. One JSON
-// line a row; times are medians over frames, ms; exit code 1 where digests differ.
+// Measures what the GPU's broad phase gains by keeping data from frame to frame, and how it hands on pairs: boxes that
+// move little, a static world, pairs in chunks. Each mode runs beside the plain one on the same boxes, and both must
+// find pairs of equal digests. Prints one JSON line for each row; times are medians over frames, ms; the exit code is 1
+// where digests differ.
 //   broadside_gpu_frames [MOVING_N [STATIC_N [FRAMES]]]
 #include <algorithm>
 #include <chrono>
@@ -39,7 +40,7 @@ double ms_since(Clock::time_point from) {
   return std::chrono::duration<double, std::milli>(Clock::now() - from).count();
 }
 
-// Frames of a stream whose boxes lie on the device: update and find, by the host's clock.
+// Times and digest of the frames of a stream whose boxes lie on the device: update and find, by the host's clock.
 struct Frames {
   std::vector<double> ms;
   std::uint64_t digest = 0;
@@ -62,7 +63,7 @@ bool run_frames(Finder& finder, const std::string& spec, std::uint32_t frames, F
     if (core::Status s = k == 0 ? finder.load_on_device(boxes, is_static) : finder.update_on_device(boxes); !s)
       return complain(s.error());
     if (core::Status s = finder.find(); !s) return complain(s.error());
-    // The first frames let arrays grow and the GPU's clock rise.
+    // The first frames are left out: arrays still grow, and the GPU's clock rate still rises.
     if (k > 4) out.ms.push_back(ms_since(start));
     auto pairs = finder.pairs_on_device();
     if (!pairs) return complain(pairs.error());
@@ -90,7 +91,8 @@ bool race_kept(const std::string& spec, std::uint32_t frames) {
   return of_kept.digest == of_plain.digest;
 }
 
-// Triangles' boxes of hills, two a square of half a metre; the moving boxes begin in the middle of them.
+// The boxes of the triangles of a hilly ground, two triangles for each square of half a meter; the moving boxes start
+// in the middle of it.
 std::vector<Box> world_of(std::uint32_t static_boxes, std::uint32_t moving_boxes) {
   constexpr float kSide = 0.5F;
   const auto squares = static_cast<std::uint32_t>(std::sqrt(static_cast<double>(static_boxes) / 2.0));

@@ -1,6 +1,6 @@
-// Continuous collision on the GPU: first touches of the candidates of a folding sheet and of a moving heap, the
-// earliest alone and all of them, with the bits of the CPU's. Prints one JSON line a motion and mode: medians over the
-// repetitions, by the device's events.
+// Continuous collision on the GPU: first touches of the candidates of a folding sheet and of a moving heap, first the
+// earliest touch alone and then all touches. The bits must be those of the CPU. Prints one JSON line for each motion
+// and mode: medians over the repetitions, by the device's events.
 //   broadside_gpu_impacts [TRIANGLES_OF_SHEET [TRIANGLES_OF_HEAP [REPETITIONS]]]
 #include <algorithm>
 #include <cstdio>
@@ -21,7 +21,7 @@ namespace {
 
 // A GPU that was idle takes some tenths of a second to reach its clock rate.
 constexpr double kWarmUpS = 0.5;
-// Queries of a launch where the earliest time alone is asked for: 30 launches of 30 million.
+// How many queries one launch has where only the earliest time is asked for: 30 launches for 30 million.
 constexpr std::uint32_t kEarliestQueries = 1U << 20U;
 
 bool complain(const core::Error& error) {
@@ -98,7 +98,7 @@ bool race(const std::string& motion, int repetitions) {
   });
   if (!first_times) return complain(first_times.error());
 
-  // The CPU's, for the bits.
+  // The CPU's answers, with which the bits are compared.
   const reference::SurfaceImpacts on_cpu(surface.value(), features);
   std::vector<double> faces(pairs.value().vertex_face.size()), edges(pairs.value().edge_edge.size());
   on_cpu.times(continuous::FeatureKind::kVertexFace, pairs.value().vertex_face, faces);

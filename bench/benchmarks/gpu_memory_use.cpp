@@ -1,5 +1,5 @@
-// Device memory of the pipeline after some frames of 50 instances of a mesh, recording off. Prints one JSON line a
-// mesh.
+// Measures the device memory of the pipeline after some frames of 50 instances of a mesh, with recording off. Prints
+// one JSON line for each mesh.
 //   broadside_gpu_memory FRAMES MESH...
 #include <cuda_runtime_api.h>
 
@@ -54,7 +54,7 @@ int main(int count, char** given) {
   if (const std::string why = broadside::gpu::gpu_absent(); !why.empty())
     return std::fprintf(stderr, "%s\n", why.c_str()), 3;
   if (count < 3) return std::fprintf(stderr, "usage: broadside_gpu_memory FRAMES MESH...\n"), 2;
-  (void)cudaFree(nullptr);  // the context is there before anything is measured
+  (void)cudaFree(nullptr);  // makes the CUDA context before anything is measured
   bool is_good = true;
   for (int k = 2; k < count; ++k) is_good = broadside::bench::tell(given[k], std::atoi(given[1])) && is_good;
   return is_good ? 0 : 1;

@@ -1,4 +1,5 @@
-// The digest of pairs that lie on the GPU, added up there: hundreds of millions of them would take the host a minute.
+// The digest of pairs that lie on the GPU. It is summed there, because hundreds of millions of pairs would take the
+// host a minute.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +12,7 @@
 
 namespace broadside::bench {
 
-// core::pair_digest of them.
+// The core::pair_digest of these pairs.
 inline core::Result<std::uint64_t> digest_of(const core::DevicePairs& pairs) {
   gpu::DeviceBuffer<unsigned long long> sum;
   const unsigned long long zero = 0;

@@ -1,13 +1,17 @@
-// The GPU's broad phase on the boxes of the races: boxes on the device, pairs in memory, in any order. Prints one JSON
-// line a set: medians over the repetitions, ms.
+// Times the GPU's broad phase on the boxes of the races: boxes on the device, pairs in memory, in any order. Prints one
+// JSON line for each set: medians over the repetitions, ms.
 //   broadside_gpu_race [LARGEST_N [REPETITIONS [KIND [SMALLEST_N [ORDER]]]]]
 // KIND: uniform, heaps, mixed; or hard: surfaces, long thin boxes, uneven worlds, each of one size; or one set by its
-// whole name, mesh:bunny:2000. Numbers go from
-// SMALLEST_N to LARGEST_N by tens. ORDER: how boxes are put in order, to compare: at-once, bulk pairs without bins;
-// coarse, in two steps however few bins there are; bulk, as bulk pairs from 4096 boxes on; lanes1, lanes4, so
-// many lanes a box, also as bulk pairs from 4096 boxes on; scale1, cells as large as the largest box; x0, x1, x2, cells
-// so often halved along x; apart2, apart4, levels so far apart; groups, groups0, by groups of boxes or not, also as
-// bulk pairs from 4096 boxes on.
+// whole name, mesh:bunny:2000. Counts go from SMALLEST_N to LARGEST_N by factors of ten. ORDER: a way to put the boxes
+// in order, for comparison:
+//   at-once           bulk pairs without bins
+//   coarse            in two steps, however few bins there are
+//   bulk              as bulk pairs from 4096 boxes on
+//   lanes1, lanes4    so many lanes for each box, also as bulk pairs from 4096 boxes on
+//   scale1            cells as large as the largest box
+//   x0, x1, x2        cells that are halved so often along x
+//   apart2, apart4    levels that are so far apart
+//   groups, groups0   with or without groups of boxes, also as bulk pairs from 4096 boxes on
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
@@ -51,7 +55,7 @@ gpu::PairFinderOptions options_of(const std::string& order) {
   return options;
 }
 
-// `frame`: of a stream, counted from 0.
+// `frame`: the number of the stream's frame, counted from 0.
 bool race(const std::string& kind, const std::string& spec, std::uint32_t frame, int repetitions,
           const std::string& order) {
   auto made = datasets::make_box_stream("boxes:" + spec);
@@ -91,7 +95,7 @@ struct HardSet {
   std::uint32_t frame = 0;
 };
 
-// A cloth while it is flat, half folded and folded.
+// The frames at which a cloth is flat, half folded and folded.
 constexpr HardSet kHardSets[] = {{"needles", "needles:100000"},
                                  {"slivers", "slivers:100000"},
                                  {"spiral", "spiral:100000"},

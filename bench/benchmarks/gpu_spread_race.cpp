@@ -1,10 +1,12 @@
-// A set spread over devices against one of them that has it all: the same boxes, already on the devices, part by part.
-// Prints one JSON line a set and number of parts: medians over the repetitions, ms, by the host's clock.
+// Compares a set of boxes that is spread over several devices with the same set on one of them. The boxes lie on the
+// devices already, part by part. Prints one JSON line for each set and number of parts: medians over the repetitions,
+// ms, by the host's clock.
 //   broadside_gpu_spread REPETITIONS N[,N]... KIND[,KIND]...      e.g. broadside_gpu_spread 10 10000000,100000000
 //   uniform
-// Steps of the search (count_ms, place_ms, scatter_ms, find_ms) are those of the part that took longest.
-// Of each set first one device's share of the boxes on one device, for weak scaling; then all on one, for the digest
-// and strong scaling; then all on all devices. KIND may be mesh:NAME: copies of a mesh, of about N boxes together.
+// Times of the steps of the search (count_ms, place_ms, scatter_ms, find_ms) are those of the part that took longest.
+// Each set runs three times: one device's share of the boxes on one device, for weak scaling; all boxes on one device,
+// for the digest and strong scaling; all boxes on all devices. KIND may be mesh:NAME: copies of a mesh, of about N
+// boxes together.
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
@@ -55,10 +57,10 @@ core::Result<std::vector<Box>> boxes_of(const std::string& kind, std::uint64_t n
   return std::move(made.value().boxes);
 }
 
-// In the order of the parts in which they begin, so that numbers part by part are those of the set.
+// Sorts the boxes by the part in which they begin, so that the numbers that the parts give them are those of the set.
 core::SpaceCut put_part_by_part(std::vector<Box>& boxes, std::uint32_t parts) {
   core::SpaceCut cut = core::cut_space(boxes, parts);
-  // Dealt in one pass: sorting three hundred million boxes would take most of a minute.
+  // The boxes are distributed in one pass: sorting three hundred million boxes would take most of a minute.
   std::vector<std::vector<Box>> of_part(cut.parts());
   for (const Box& box : boxes) of_part[cut.part_at(box.min[cut.axis])].push_back(box);
   boxes.clear();
@@ -66,14 +68,14 @@ core::SpaceCut put_part_by_part(std::vector<Box>& boxes, std::uint32_t parts) {
   return cut;
 }
 
-// False: what could not be found was said. `cut`: of one part or of all.
+// Returns false after it printed an error. `cut`: of one part or of all.
 bool race(const char* what, const std::string& kind, const std::vector<Box>& boxes, const core::SpaceCut& cut,
           int repetitions) {
   const std::vector<std::uint8_t> is_static(boxes.size());
   gpu::SpreadFinder finder({cut.parts(), cut.parts()});
   if (core::Status s = finder.load_cut(boxes, is_static, cut); !s) return complain(s.error());
   std::vector<double> whole, borders, exchange, search, count, place, scatter, find;
-  // The first ones let arrays grow.
+  // The first runs are not counted: arrays still grow.
   for (int k = -3; k < repetitions; ++k) {
     if (core::Status s = finder.find(); !s) return complain(s.error());
     if (k < 0) continue;
@@ -121,7 +123,7 @@ core::Status make_set(const Request& wanted, MadeSet& set) {
   return core::Done{};
 }
 
-// A set that does not fit on one device is said, and raced on all.
+// When a set does not fit on one device, that is reported, and the set is still raced on all devices.
 bool race_set(const Request& wanted, const MadeSet& set, int repetitions) {
   bool is_good = race("one", wanted.kind, set.boxes, {}, repetitions);
   if (wanted.parts > 1) is_good = race("all", wanted.kind, set.boxes, set.cut, repetitions) && is_good;
@@ -143,12 +145,12 @@ int main(int count, char** given) {
   for (const std::string& kind : bench::list_of(given[3])) {
     for (const std::string& n : bench::list_of(given[2])) {
       const std::uint64_t boxes = std::strtoull(n.c_str(), nullptr, 10);
-      // What one device has when all have this many: weak scaling.
+      // The share that one device has when all devices together have this many boxes: weak scaling.
       if (all > 1) wanted.push_back({kind, boxes / all, 1});
       wanted.push_back({kind, boxes, all});
     }
   }
-  // Making a set takes longer than racing on it, so the next one is made meanwhile, by a thread of its own.
+  // Making a set takes longer than racing on it, so a second thread makes the next set meanwhile.
   bench::MadeSet made[2];
   std::future<core::Status> next;
   const auto start = [&](std::size_t k) {

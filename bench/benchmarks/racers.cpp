@@ -9,11 +9,11 @@ namespace {
 
 constexpr std::uint32_t kMostBoxes = 1'000'000;
 
-// An engine of the table takes part with its defaults; these rows list the exceptions.
+// Each engine of the table takes part with its defaults; these rows list the exceptions.
 std::vector<Racer> exceptions() {
   return {
       {"all-pairs", "all-pairs", {}, 20'000},
-      {"hash-cpu", "hash-cpu", {}, 20'000},  // its cell is a quarter of a metre, the boxes are of a metre and more
+      {"hash-cpu", "hash-cpu", {}, 20'000},  // its cell is a quarter of a meter, and the boxes are a meter and larger
       {"octree-cpu", "octree-cpu", {}, 10'000'000},
       {"octree-cpu-1-thread", "octree-cpu", {{"threads", "1"}}, 10'000'000},
       {"octree-cpu-complete", "octree-cpu", {{"broad", "octree"}}, 20'000},

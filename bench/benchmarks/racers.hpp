@@ -1,4 +1,4 @@
-// Who takes part in the broad-phase suites.
+// Which engines take part in the broad-phase suites.
 #pragma once
 
 #include <cstdint>

@@ -24,7 +24,7 @@ std::string silence(const Shown<Observation>& shown, Quantity quantity) {
   return {};
 }
 
-// Of the scenes and engines that the bad build has another speed for: that of this build.
+// How the times of this build look: only the scenes and engines count at which the bad build has another speed.
 Look look_at_times(const std::vector<TimeRatio>& bad, const std::vector<TimeRatio>& build) {
   bool is_unknown = false;
   for (const TimeRatio& wanted : bad) {

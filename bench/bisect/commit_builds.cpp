@@ -14,7 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// One clone, with the commit that was built in it last.
+// A clone, with the commit that was last built in it.
 struct Tree {
   fs::path root;
   std::optional<std::size_t> holds;
@@ -88,7 +88,7 @@ class CommitBuilds final : public Builds {
     const std::vector<std::string> words{"-C",      tree.root.string(), "checkout",       "--quiet",
                                          "--force", "--detach",         list_[k].identity};
     if (fs::exists(tree.root / ".git") && git(words).ok()) return core::Done{};
-    // There is none yet, or one whose making or checking out was cut off, which leaves git's own locks behind.
+    // There is no clone yet, or making it or checking out was interrupted, which leaves git's own locks behind.
     fs::remove_all(tree.root, ignored);
     if (auto done = git({"clone", "--quiet", "--shared", "--no-checkout", request_.repository, tree.root.string()});
         !done)

@@ -41,7 +41,7 @@ core::Result<std::optional<ContactSetDifference>> compare_contact_sets(const std
   if (!before) return before.error();
   const auto after = core::TraceReader::open(is);
   if (!after) return after.error();
-  std::map<std::uint64_t, std::uint64_t> place;  // of a step in the second trace
+  std::map<std::uint64_t, std::uint64_t> place;  // by step, the index of its frame in the second trace
   for (std::uint64_t k = 0; k < after.value().frame_count(); ++k) place[after.value().steps()[k]] = k;
   for (std::uint64_t k = 0; k < before.value().frame_count(); ++k) {
     const std::uint64_t step = before.value().steps()[k];

@@ -18,8 +18,9 @@ struct ContactSetDifference {
   std::string only_after;   // likewise of the second
 };
 
-// Nothing where all common steps have equal sets, or where neither trace records who touches. A pair touches when it
-// has a contact, a point of contact, or a measured separation that says so. Forces, depths and orders do not count.
+// Nothing where the sets are equal at all common steps, or where neither trace records which bodies touch. A pair
+// touches when it has a contact, a point of contact, or a measured separation that says so. Forces, depths and the
+// order of contacts do not count.
 core::Result<std::optional<ContactSetDifference>> compare_contact_sets(const std::filesystem::path& was,
                                                                        const std::filesystem::path& is);
 

@@ -6,7 +6,7 @@
 namespace broadside::bench::bisect {
 namespace {
 
-// 1/2, 1/4, 3/4, 1/8, 5/8 ...: the fractions of an interval, for the number of builds in it that are unknown.
+// The fractions 1/2, 1/4, 3/4, 1/8, 5/8 ... of an interval: where to look next after so many unknown builds in it.
 double fraction(std::size_t unknown) {
   double result = 0.0;
   double part = 0.5;

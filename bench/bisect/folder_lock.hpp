@@ -1,4 +1,5 @@
-// The folder of a bisection belongs to one at a time, and to what a killed one started until that has ended.
+// A lock on a bisection's folder: one bisection works there at a time, and the programs that a killed bisection started
+// hold the lock until they have ended.
 #pragma once
 
 #include <filesystem>
@@ -9,7 +10,7 @@ namespace broadside::bench::bisect {
 
 class FolderLock {
  public:
-  // Waits, and says so, while another bisection or the build or command of one that was killed works there. Error:
+  // Waits, and says so, while another bisection works there, or a build or command that a killed one started. Errors:
   // interrupted, or a folder that cannot be written.
   static core::Result<FolderLock> take(const std::filesystem::path& folder);
 
@@ -17,7 +18,7 @@ class FolderLock {
   FolderLock& operator=(FolderLock&&) = delete;
   ~FolderLock();
 
-  // For the programs that are started: the lock lasts until each that has it open has ended.
+  // The descriptor that started programs inherit: the lock lasts until every program that has it open has ended.
   [[nodiscard]] int descriptor() const { return descriptor_; }
 
  private:

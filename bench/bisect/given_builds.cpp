@@ -9,7 +9,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// A file that was built again is another build.
+// Path, size and time of change, so that a file that was built again counts as another build.
 std::string identity_of(const fs::path& path) {
   std::error_code ignored;
   const auto size = fs::is_regular_file(path, ignored) ? fs::file_size(path, ignored) : 0;

@@ -37,7 +37,7 @@ bool is_of(Quantity quantity, ChangeKind kind) {
   return false;
 }
 
-// Calls with each two cells of one scene and label that were recorded on both sides.
+// Calls `call` with each pair of cells of the same scene and label that were recorded on both sides.
 template <typename Function>
 core::Status for_both(const Observation& was, const Observation& is, const Function& call) {
   for (const core::Cell& a : was.rows.cells)
@@ -48,7 +48,7 @@ core::Status for_both(const Observation& was, const Observation& is, const Funct
   return core::Done{};
 }
 
-// The steps of which a cell tells the digest: every frame of its trace, or what the cell itself has.
+// The digests of a cell by step: of every frame of its trace, or those that the cell itself holds.
 core::Result<std::map<std::uint64_t, std::uint64_t>> digests_of(const Observation& build, const core::Cell& cell) {
   if (cell.trace_file.empty()) return cell.digests;
   const auto trace = core::TraceReader::open(build.folder / cell.trace_file);

@@ -1,4 +1,4 @@
-// What the command left of one build, and how two builds differ in it.
+// What the command left in the folder of one build, and how two builds differ in it.
 #pragma once
 
 #include <filesystem>
@@ -21,9 +21,9 @@ struct Observation {
 
 core::Result<Observation> read_observation(const std::filesystem::path& folder, int exit_code);
 
-// Everything in which the second differs from the first, in this quantity alone; not kTime. Rows are matched by scene
-// and label of the engine, as 'compare' does, and what only one build records is no difference but where the cell
-// itself came or went (kVerdict).
+// Everything in which the second differs from the first in this quantity; not for kTime. Rows are matched by scene and
+// label of the engine, as 'compare' matches them. What only one build records is no difference, except that kVerdict
+// counts a cell that came or went.
 core::Result<std::vector<Difference>> differences(const Observation& was, const Observation& is, Quantity quantity);
 
 // Where the traces of both first differ, bit by bit, in the words of 'diff'; empty where no cell has a trace on both

@@ -15,7 +15,7 @@ namespace fs = std::filesystem;
 
 constexpr const char* kControl = "control";
 
-// Everything that the answer depends on; another text is another bisection.
+// Everything that the answer depends on; a folder with another text belongs to another bisection.
 std::string question_text(const Builds& builds, const Question& q) {
   std::string text = q.command + "\n" + (q.made_by.empty() ? "" : "made by: " + q.made_by + "\n");
   text += fmt::format("times: {} {} {} {}\n", q.times.delta, q.times.processes, q.times.most, q.work.frames);
@@ -23,7 +23,7 @@ std::string question_text(const Builds& builds, const Question& q) {
   return text;
 }
 
-// An empty folder: what an interrupted command left there is no result.
+// Empties the folder: what an interrupted command left there is not a result.
 core::Status empty_folder(const fs::path& folder) {
   std::error_code ignored;
   fs::remove_all(folder, ignored);
@@ -97,7 +97,7 @@ core::Result<Seen> Observer::time(std::size_t k, const fs::path& folder) {
     if (!made->fault.empty()) return Seen{false, 0, made->fault};
   if (core::Status s = empty_folder(folder); !s) return s.error();
   const auto times = measure_times(question_.work, question_.times, good.value().place, build.value().place, folder);
-  // Whatever else went wrong is this build's affair, and the search goes on without it.
+  // Any other error concerns this build alone, and the search goes on without it.
   if (!times && (is_interrupted() || times.error().exit == core::Exit::kBadInput)) return times.error();
   if (!times) return Seen{false, 0, times.error().line()};
   return Seen{true, 0, {}};

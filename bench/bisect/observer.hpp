@@ -1,4 +1,4 @@
-// Runs the command on builds, each once, and keeps what it saw in the folder of the bisection.
+// Runs the command on builds, once on each, and keeps the results in the folder of the bisection.
 #pragma once
 
 #include <cstddef>
@@ -19,36 +19,36 @@ namespace broadside::bench::bisect {
 
 struct Question {
   std::string command;  // with {build} or {program}, and {out}
-  std::string made_by;  // what builds a commit, and where the program is in it; empty: builds are given
+  std::string made_by;  // how a commit is built, and where the program is in it; empty: the builds are given
   std::vector<Quantity> quantities;
   TimedWork work;
   TimeSettings times;
   std::filesystem::path folder;
 };
 
-// What one build shows, or why it shows nothing.
+// The result of one build, or why it has none.
 template <typename T>
 struct Shown {
-  const T* what = nullptr;  // valid as long as the observer
-  std::string reason;       // "does not build: ..."; empty when it is shown
+  const T* what = nullptr;  // valid while the observer lives
+  std::string reason;       // "does not build: ..."; empty when there is a result
 };
 
 class Observer {
  public:
-  // Takes up what the folder holds already of the same question about the same builds.
+  // Takes over the results that the folder already holds for the same question about the same builds.
   static core::Result<Observer> begin(Builds& builds, const Question& question);
 
-  // Builds k and runs the command on it, or reads what that left earlier. Exit codes 125, 126 and 127 of the command
-  // skip the build, as 'git bisect run' has it. Errors: interrupted; a folder or a file that cannot be written.
+  // Makes build k and runs the command on it, or reads the results of an earlier run. Exit codes 125, 126 and 127 of
+  // the command skip the build, as in 'git bisect run'. Errors: interrupted; a folder or a file that cannot be written.
   core::Result<Shown<Observation>> look(std::size_t k);
 
-  // Of the good build a second time.
+  // Observes the good build a second time.
   core::Result<Shown<Observation>> control();
 
   // Times of build k against those of the good one.
   core::Result<Shown<std::vector<reports::TimeRatio>>> times(std::size_t k);
 
-  // Builds that were looked at and could not be judged, each in a line.
+  // Builds that were observed and could not be judged, one line for each.
   [[nodiscard]] std::vector<std::string> skipped() const;
 
  private:

@@ -8,7 +8,7 @@
 namespace broadside::bench::bisect {
 
 enum class Quantity {
-  kVerdict,   // an outcome of a law, or what became of a cell
+  kVerdict,   // an outcome of a law, or the state of a cell
   kContacts,  // which bodies touch in some frame
   kDigest,    // any bit of a recorded frame, or the scene itself
   kCounter,   // counted work
@@ -32,7 +32,7 @@ constexpr std::string_view quantity_word(Quantity quantity) {
   return "unknown";
 }
 
-// One thing that differs between two builds: "errata:E3, octree-cpu: center-of-mass: pass, then fail".
+// One difference between two builds: "errata:E3, octree-cpu: center-of-mass: pass, then fail".
 struct Difference {
   std::string scene;
   std::string label;  // of the engine

@@ -37,7 +37,7 @@ std::string filled_in(const std::string& command, const BuildPlace& place, const
 
 core::Result<int> run_in_shell(const std::string& text, const std::filesystem::path& folder,
                                const std::filesystem::path& log, int lock) {
-  // The second line keeps the shell from becoming the command, so that a signal ends the command alone.
+  // The second line keeps the shell from replacing itself by the command, so that a signal ends the command alone.
   auto code = run_program("/bin/sh", {"-c", "cd -- " + quoted(folder.string()) + " || exit 126\n" + text + "\nexit $?"},
                           log, lock);
   if (is_interrupted())

@@ -13,7 +13,7 @@ using Json = nlohmann::json;
 constexpr const char* kFile = "bisect.json";
 constexpr const char* kStateFormat = "broadside-bisection";
 constexpr int kStateVersion = 1;
-constexpr std::size_t kDeepest = 8;  // it has 4 levels
+constexpr std::size_t kDeepest = 8;  // nested levels that are read; the file has 4
 
 Json json_of_seen(const std::map<std::string, Seen>& all) {
   Json rows = Json::object();

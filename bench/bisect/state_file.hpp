@@ -1,4 +1,4 @@
-// What a bisection has seen so far, in one file: a killed one goes on from there.
+// What a bisection has observed so far, in one file, from which a killed bisection goes on.
 #pragma once
 
 #include <filesystem>
@@ -9,7 +9,7 @@
 
 namespace broadside::bench::bisect {
 
-// What became of the command on one build. Its results lie in the folder of the build.
+// How the command ended on one build. Its results lie in the folder of the build.
 struct Seen {
   bool is_judged = false;
   int exit_code = 0;
@@ -17,7 +17,7 @@ struct Seen {
 };
 
 struct State {
-  std::string question;               // what is asked of which builds; another question needs another folder
+  std::string question;               // what is asked about which builds; another question needs another folder
   std::map<std::string, Seen> seen;   // by folder name of the build; "control" is the good build again
   std::map<std::string, Seen> timed;  // builds whose times were compared with the good one's
 };

@@ -15,12 +15,13 @@ namespace broadside::bench::bisect {
 
 struct TimeSettings {
   double delta = 0.05;           // as 'compare' takes it
-  std::uint32_t processes = 15;  // of each build
-  std::uint32_t most = 60;       // of each build, while the first ones do not decide
+  std::uint32_t processes = 15;  // timed processes of each build
+  std::uint32_t most = 60;       // of each build, where the first ones do not decide
 };
 
-// A scene that both programs run in turns of a millisecond. Without a scene the command of the bisection is timed: it
-// leaves cells.json, verdicts.json and samples.json in {out}, and whole processes run one by one, ABBA.
+// What is timed: a scene, which both programs run in alternating turns of a millisecond. Without a scene the command of
+// the bisection is timed: it leaves cells.json, verdicts.json and samples.json in {out}, and whole processes run one
+// after the other in the order ABBA.
 struct TimedWork {
   std::string scene;
   std::vector<std::string> engines;
@@ -35,7 +36,7 @@ core::Result<std::vector<reports::TimeRatio>> measure_times(const TimedWork& wor
                                                             const BuildPlace& good, const BuildPlace& build,
                                                             const std::filesystem::path& folder);
 
-// What measure_times found, from the folder that it left.
+// Reads what measure_times found from the folder that it left.
 core::Result<std::vector<reports::TimeRatio>> read_times(const TimeSettings& settings,
                                                          const std::filesystem::path& folder);
 

@@ -26,7 +26,7 @@ bool is_name(const std::string& text) {
   });
 }
 
-// Every combination, the first key changing slowest.
+// Every combination of values; the first key changes slowest.
 std::vector<Choice> choices(const Values& values) {
   std::vector<Choice> all{{}};
   for (const auto& [key, list] : values) {

@@ -25,7 +25,7 @@
 
 namespace broadside::bench::campaign {
 
-// What a campaign file may ask for, and so what a manifest may hold.
+// The largest values that a campaign file may ask for, and so that a manifest may hold.
 inline constexpr std::uint32_t kMostFrames = 1'000'000'000;
 inline constexpr std::uint32_t kMostRepetitions = 10'000;  // of a cell, and processes
 inline constexpr double kLongestLimit_s = 1e7;             // of a part of a cell: 116 days
@@ -38,8 +38,8 @@ struct CellWork {
   std::string engine;  // "bullet-dbvt[deferred=on]"
   std::uint32_t frames = 0;
   std::uint32_t repetitions = 0;  // 0 = not timed
-  std::uint32_t processes = 1;    // that each make so many
-  std::string against;            // the baseline of verdicts, an engine that is recorded beside; empty = none
+  std::uint32_t processes = 1;    // each of them makes so many repetitions
+  std::string against;            // the baseline of verdicts: an engine that is recorded beside this one; empty = none
   bool stand_in = false;
   double time_limit_s = 3600.0;
 

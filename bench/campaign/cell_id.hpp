@@ -10,14 +10,14 @@
 
 namespace broadside::bench::campaign {
 
-// The same on every machine.
+// A hash that is the same on every machine.
 std::uint64_t hashed(std::string_view text);
 
 // The hash as 16 hexadecimal digits.
 std::string id_of(std::string_view text);
 
-// The cell of this work with its id; it takes turns with no other. `beside`: other facts that make two such cells
-// different. Errors: an engine or setting that does not exist, in the work or its baseline.
+// The cell of this work with its id; no other cell takes turns with it. `beside`: further facts that distinguish cells
+// of the same work. Errors: an engine or setting that does not exist, in the work or its baseline.
 core::Result<ManifestCell> identified(const CellWork& work, std::uint64_t scene_digest, const std::string& beside);
 
 }  // namespace broadside::bench::campaign

@@ -1,4 +1,4 @@
-// A lock that keeps two processes, perhaps on two machines with one file system, from doing one cell at a time.
+// A lock that keeps two processes, perhaps on two machines with one file system, from working on the same cell.
 #pragma once
 
 #include <filesystem>
@@ -8,8 +8,9 @@ namespace broadside::bench::campaign {
 
 class CellLock {
  public:
-  // Empty when another process holds it, or the folder cannot be written. The lock ends with the process that holds it,
-  // also when that is killed (flock; on a network file system it needs lock support, as Slurm's shared folders have).
+  // Empty when another process holds it, or when the folder cannot be written. The lock ends with the process that
+  // holds it, also when that process is killed (flock; a network file system needs lock support, as Slurm's shared
+  // folders have).
   static std::optional<CellLock> take(const std::filesystem::path& file);
 
   CellLock(CellLock&& other) noexcept;

@@ -23,7 +23,7 @@ using Json = nlohmann::json;
 
 constexpr const char* kFormat = "broadside-campaign";
 constexpr int kVersion = 2;
-constexpr std::size_t kDeepestManifest = 16;  // it has 4 levels; writing a part of it out takes stack for each
+constexpr std::size_t kDeepestManifest = 16;  // it has 4 levels; each level takes stack when it is written
 
 core::Result<std::uint64_t> digest_of_scene(const CellWork& work) {
   const SceneArguments arguments{work.scene, work.frames, work.stand_in};
@@ -105,7 +105,7 @@ core::Result<Manifest> make_manifest(const CampaignFile& campaign) {
     }
     auto cell = identified(work, digests[key], fmt::format("{}|{}", work.processes, work.against));
     if (!cell) return cell.error();
-    // Two spellings of one engine, or two names of one scene, are one cell.
+    // Two spellings of one engine, or two names of one scene, give the same cell.
     if (ids.insert(cell.value().id).second) manifest.cells.push_back(std::move(cell).value());
   }
   return manifest;

@@ -19,8 +19,8 @@ struct ManifestCell {
   std::string id;
   CellWork work;
   bool needs_gpu = false;
-  // Neighboring cells with the same text are done by one process, which times them in turns, so that a machine that
-  // drifts drifts for all. A cell that is timed alone has its own id here.
+  // Neighboring cells with the same text are done by one process, which times them in turns, so that a drift of the
+  // machine affects all of them alike. A cell that is timed alone has its own id here.
   std::string turns;
 };
 
@@ -35,14 +35,16 @@ struct Manifest {
 // The cells that one process does together, group by group.
 std::vector<std::span<const ManifestCell>> groups_of(const Manifest& manifest);
 
-// Makes every scene once: a scene, engine or setting that does not exist is found here, not on a node at night.
+// Makes every scene once, so that a scene, engine or setting that does not exist is found here and not on a node at
+// night.
 core::Result<Manifest> make_manifest(const CampaignFile& campaign);
 
 core::Status write_manifest(const std::filesystem::path& folder, const Manifest& manifest);
 // Errors: none there, damaged, or a later format.
 core::Result<Manifest> read_manifest(const std::filesystem::path& folder);
 
-// DIR/cells/ID exists = finished. Unfinished work is in DIR/cells/ID.part; the process that does it holds TURNS.lock.
+// A finished cell has the folder DIR/cells/ID. Unfinished work is in DIR/cells/ID.part; the process that does it holds
+// TURNS.lock.
 std::filesystem::path cell_folder(const std::filesystem::path& folder, const std::string& id);
 
 }  // namespace broadside::bench::campaign

@@ -63,7 +63,7 @@ class Merger {
       if (!kept) return kept.error();
       is_kept[trace] = kept.value();
     }
-    // Engines that do not simulate record their driver too; its rows are kept once.
+    // Engines that do not simulate record their driver too; equal rows of a driver are kept once.
     for (core::CellVerdicts& verdicts : rows.value().verdicts) {
       if (!is_kept[fs::path(verdicts.trace_file).filename().string()]) continue;
       for (const core::Verdict& verdict : verdicts.verdicts)
@@ -87,7 +87,7 @@ class Merger {
     rows_.cells.push_back(std::move(cell));
   }
 
-  // False when an equal one is there already.
+  // Returns false when an equal cell is there already.
   core::Result<bool> take_cell(core::Cell cell, const ManifestCell& planned, const fs::path& folder) {
     if (cell.stamp.broadside_build != manifest_.build)
       return Error{"cell " + planned.id + " is of another build: " + cell.stamp.broadside_build, folder_.string(),

@@ -19,10 +19,10 @@ struct MergeSummary {
   std::vector<std::string> notable;               // a line for each cell that is missing, crashed or timed out
 };
 
-// Writes cells.json, verdicts.json and samples.json, and what the campaign's job adds, into `out`, which may be the
-// campaign's own folder; trace files keep their place and are named relative to it. A cell that is not finished
-// becomes a row that says so. Errors: cells of different builds; two results of one stamp whose digests differ (named);
-// damaged rows.
+// Writes cells.json, verdicts.json and samples.json to `out`, with what the campaign's job adds. `out` may be the
+// campaign's own folder; trace files stay where they are and are named relative to `out`. A cell that is not finished
+// becomes a row that says so. Errors: cells of different builds; two results of one stamp whose digests differ (both
+// are named); damaged rows.
 core::Result<MergeSummary> merge_cells(const std::filesystem::path& folder, const std::filesystem::path& out);
 
 }  // namespace broadside::bench::campaign

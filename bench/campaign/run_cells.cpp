@@ -42,7 +42,7 @@ std::vector<std::string> command(std::string name, const CellWork& work, std::in
   return arguments;
 }
 
-// Judged good, judged bad, or incomplete: all three are results. Other exit codes are bad input or a full disk.
+// A cell that was judged good, judged bad, or is incomplete is a result. Other exit codes are bad input or a full disk.
 bool is_result(const ChildEnding& ending) {
   return ending.exit_code == 0 || ending.exit_code == 1 || ending.exit_code == 3;
 }
@@ -79,8 +79,8 @@ core::Status write_ended_badly(const fs::path& part, const CellWork& work, const
 
 // How the last part of a cell ended, or the first part that gave no result.
 core::Result<ChildEnding> record_judge_time(const fs::path& part, const CellWork& work) {
-  // Each part has the full limit. Recording ends a hanging engine itself, and that is a result; only a harness that
-  // hangs too is ended from here.
+  // Each part has the full limit. Recording ends a hanging engine itself, and that is a result. This limit is longer,
+  // for a harness that hangs itself.
   constexpr double kGrace_s = 30.0;
   const std::string limit = fmt::format("{}", work.time_limit_s);
   std::vector<std::string> record = command("run", work, {"--out", part.string(), "--time-limit", limit});
@@ -125,7 +125,7 @@ core::Status run_cell(const fs::path& folder, const ManifestCell& cell) {
   return core::Done{};
 }
 
-// What threads that do the groups of a manifest share: each takes the next one in order until there is none.
+// What the threads that do the groups of a manifest share: each thread takes the next group until there is none.
 class Workers {
  public:
   Workers(const fs::path& folder, const Manifest& manifest, const Selection& selection, const TellGroup& tell,
@@ -145,7 +145,7 @@ class Workers {
     std::stable_sort(order_.begin(), order_.end(), [&](std::size_t a, std::size_t b) { return ranks[a] < ranks[b]; });
   }
 
-  // Until no group is left, an interrupt, or an error of any thread.
+  // Does groups until none is left, an interrupt arrives, or any thread has an error.
   void work() {
     for (std::size_t k = next_++; k < order_.size() && !is_interrupted() && !has_failed_; k = next_++)
       if (selection_.includes(order_[k], groups_[order_[k]])) do_group(order_[k]);
@@ -160,7 +160,7 @@ class Workers {
     const std::span<const ManifestCell> group = groups_[place];
     const std::size_t first = first_of(place);
     const auto lock = CellLock::take(folder_ / "cells" / (group.front().turns + ".lock"));
-    // Counted after taking the lock, so that cells which another process finished meanwhile are counted.
+    // Counted after taking the lock, so that cells that another process finished meanwhile are counted.
     const std::uint32_t before = finished(group);
     const auto missing = static_cast<std::uint32_t>(group.size()) - before;
     Tally own;
@@ -216,7 +216,7 @@ class Workers {
   std::vector<std::size_t> order_;
   std::atomic<std::size_t> next_ = 0;
   std::atomic<bool> has_failed_ = false;
-  std::mutex mutex_;  // of what follows, and of tell_
+  std::mutex mutex_;  // guards what follows, and tell_
   Tally tally_;
   std::optional<core::Error> error_;
 };
@@ -263,7 +263,7 @@ core::Result<Tally> run_cells(const fs::path& folder, const Selection& selection
   }
 
   Workers workers(folder, manifest, selection, tell, job.get());
-  // Cells that are done by child processes wait for them: a thread each.
+  // A cell is done by child processes, and its thread waits for them, so each cell in work has a thread.
   std::vector<std::thread> threads;
   for (std::uint32_t k = 1; k < at_once && !job; ++k) threads.emplace_back([&workers] { workers.work(); });
   workers.work();

@@ -1,4 +1,4 @@
-// Doing the cells of a campaign: one, a share of them, or all that are missing.
+// Runs the cells of a campaign: one cell, a share of them, or all that are missing.
 #pragma once
 
 #include <cstdint>
@@ -27,7 +27,7 @@ struct Tally {
   std::uint32_t done = 0;        // finished by this call
   std::uint32_t there = 0;       // finished earlier
   std::uint32_t busy = 0;        // another process works on them
-  std::uint32_t unfinished = 0;  // broken off: they will be done again
+  std::uint32_t unfinished = 0;  // interrupted or failed: they will be done again
 };
 
 // Why a group is not finished.
@@ -39,11 +39,11 @@ struct GroupEnd {
 };
 using TellGroup = std::function<void(const GroupEnd&)>;
 
-// A cell is recorded and judged, and timed where its work says so, by this program in child processes with the cell's
-// time limit each; its folder appears whole or not at all. An engine that crashes or hangs is a result, and finishes
-// its cell; a harness that was killed or ran out of disk is not. Groups of a job are done as the job says, in the order
-// of their ranks. `at_once` cells are in work at a time, those of a job one by one; `tell` is called by one thread at a
-// time. Errors: no manifest, another build, an unknown id.
+// Records and judges each cell, and times it where its work says so. This program does so in child processes, each with
+// the cell's time limit. The folder of a cell appears whole or not at all. When an engine crashes or hangs, that is a
+// result and finishes its cell; when the harness is killed or the disk is full, the cell is not finished. Groups of a
+// job are done as the job says, in the order of their ranks. `at_once` cells are in work at a time, those of a job one
+// by one; `tell` is called by one thread at a time. Errors: no manifest, another build, an unknown id.
 core::Result<Tally> run_cells(const std::filesystem::path& folder, const Selection& selection, const TellGroup& tell,
                               std::uint32_t at_once = 1);
 

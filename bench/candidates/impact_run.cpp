@@ -11,7 +11,7 @@
 namespace broadside::bench {
 namespace {
 
-// The least time of several runs: what else the machine does only adds.
+// The least time of several runs counts: other work on the machine can only add to a time.
 constexpr int kRuns = 3;
 
 double least_seconds(const auto& work) {

@@ -1,4 +1,4 @@
-// One (scene, engine, settings) that somebody asked for, and where its trace goes.
+// A request for one cell (scene, engine, settings), and where its trace goes.
 #pragma once
 
 #include <cstdint>
@@ -18,7 +18,7 @@
 namespace broadside::bench {
 
 struct CellRequest {
-  SceneArguments source;  // what the scene was made from, for a child process to make the same one
+  SceneArguments source;  // how the scene was made, so that a child process can make the same one
   const core::Scene* scene = nullptr;
   const core::EngineRow* row = nullptr;
   GivenSettings settings;
@@ -27,7 +27,7 @@ struct CellRequest {
   StepSelection selection;         // which steps are recorded
   std::uint32_t narrow_every = 1;  // narrow-phase engines measure every k-th frame of the driver
   std::filesystem::path folder;
-  // For engines that do not simulate: the trace whose boxes and poses they are fed.
+  // For engines that do not simulate: the trace from which they get boxes and poses.
   std::filesystem::path driver_trace;
   bool resume = false;  // go on from what an earlier run of the same stamp left in the folder
 };
@@ -37,8 +37,8 @@ core::Stamp stamp_of(const core::Scene& scene, const core::Engine& engine);
 // "octree-cpu.h5", "octree-cpu+levels=A+threads=1.h5".
 std::string trace_file_name(const core::Stamp& stamp);
 
-// How many frames apart narrow-phase engines measure by default: about 30 frames of a run, spread evenly, because one
-// mesh distance takes as long as a whole frame of the pipeline.
+// Narrow-phase engines measure every k-th frame, so that a run has about 30 measured frames, spread evenly: one mesh
+// distance takes as long as a whole frame of the pipeline.
 std::uint32_t default_narrow_every(std::uint64_t frames);
 
 }  // namespace broadside::bench

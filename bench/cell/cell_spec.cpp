@@ -9,7 +9,7 @@ namespace broadside::bench {
 
 core::Result<CellSpec> parse_cell_spec(std::string_view text) {
   auto given = parse_engine_text(text);
-  // An engine that does not exist is said before its settings are read.
+  // An engine that does not exist is reported before its settings are read.
   auto row = find_engine(text.substr(0, text.find('[')));
   if (!row) return row.error();
   if (!given) return given.error();

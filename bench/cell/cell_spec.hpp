@@ -1,4 +1,4 @@
-// An engine and the settings that somebody gave it.
+// An engine and the settings that the user gave it.
 #pragma once
 
 #include <map>
@@ -20,7 +20,7 @@ struct CellSpec {
 // "octree-cpu" or, as reports label it, "octree-cpu[levels=A,threads=1]".
 core::Result<CellSpec> parse_cell_spec(std::string_view text);
 
-// "octree-cpu" or "octree-cpu[levels=A]", as its stamp's label says it; settings that cannot be are left out.
+// "octree-cpu" or "octree-cpu[levels=A]", as in the label of its stamp; invalid settings are left out.
 std::string label_of(const CellSpec& spec);
 
 bool offers(const core::EngineRow& row, std::string_view capability);

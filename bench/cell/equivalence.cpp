@@ -53,7 +53,7 @@ core::EquivalenceCard pipeline_card(const core::Engine& engine) {
 }  // namespace
 
 core::EquivalenceCard equivalence_of(const core::Engine& engine, const core::Scene& scene) {
-  // Empty where the engine has nothing to say of this scene.
+  // Empty where the engine reports no difference for this scene.
   core::EquivalenceCard card = engine.equivalence ? engine.equivalence(scene) : core::EquivalenceCard{};
   if (!card.empty()) return card;
   if (is_pipeline(engine)) return pipeline_card(engine);

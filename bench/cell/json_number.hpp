@@ -1,5 +1,5 @@
-// Numbers from a JSON file that may be damaged. The JSON library's own conversions wrap -5 to 4,294,967,291 and cut
-// 1e30.
+// Numbers from a JSON file that may be damaged. The JSON library's own conversions turn -5 into 4,294,967,291 and
+// truncate 1e30.
 #pragma once
 
 #include <cstdint>

@@ -20,7 +20,7 @@ bool has_key(const core::EngineRow& row, const std::string& key) {
   return std::any_of(row.settings.begin(), row.settings.end(), [&](const auto& s) { return s.key == key; });
 }
 
-// A setting that was given to several engines goes to those that have its key.
+// A setting that was given for all engines goes to those that have its key.
 core::Status spread(const std::string& text, std::vector<CellSpec>& cells) {
   const auto equals = text.find('=');
   if (equals == std::string::npos || equals == 0)

@@ -7,8 +7,8 @@
 
 namespace broadside::bench {
 
-// Tries to fetch a mesh before a procedural body takes its place. Offline the work still goes on, and its report says
-// which meshes were replaced. A mesh that could not be fetched is not tried again by this process. Without
+// Tries to fetch a mesh before a procedural body takes its place. Without a network the work still goes on, and the
+// report says which meshes were replaced. This process does not try a mesh again that could not be fetched. Without
 // wanted.allow_stand_in a missing mesh is an error that names it.
 core::Result<core::Scene> make_scene_with_meshes(const SceneArguments& wanted);
 

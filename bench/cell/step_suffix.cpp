@@ -7,7 +7,7 @@
 namespace broadside::bench {
 namespace {
 
-// More frames than a run can keep.
+// A run cannot keep more frames than this.
 constexpr double kMostFrames = 1e9;
 
 std::optional<double> number(std::string_view text) {

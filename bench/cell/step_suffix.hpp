@@ -10,11 +10,11 @@
 
 namespace broadside::bench {
 
-// The text before the last '@' and the step after it, in s: "1/240" or "0.004". The whole text and nothing when no
-// number stands there, so that a file name may have an '@'.
+// The text before the last '@', and the step after it, in s: "1/240" or "0.004". Where no number follows the '@', the
+// whole text and no step, so that a file name may contain an '@'.
 std::pair<std::string_view, std::optional<double>> split_step(std::string_view spec);
 
-// The same duration in steps of dt_s, rounded to whole frames. Errors: not a step above zero, too many frames.
+// The same duration in steps of dt_s, rounded to whole frames. Errors: a step that is not above zero, too many frames.
 core::Result<core::Scene> scene_at_step(core::Scene scene, double dt_s);
 
 }  // namespace broadside::bench

@@ -9,7 +9,7 @@
 
 namespace broadside::bench {
 
-// Whether a command's argument names a trace rather than a scene, by its ending.
+// Whether a command's argument names a trace and not a scene; decided by its ending.
 bool is_trace_file(std::string_view spec);
 
 // The scene that a trace contains, whatever program recorded it. Errors: those of the trace's reader.

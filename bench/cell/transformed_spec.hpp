@@ -1,4 +1,4 @@
-// "two-body:unequal@mirrored-x": a scene and a transformation of it, for runs that metamorphic compares.
+// "two-body:unequal@mirrored-x": a scene and a transformation of it, for runs that the law metamorphic compares.
 #pragma once
 
 #include <span>
@@ -17,8 +17,8 @@ struct TransformationRow {
 
 std::span<const TransformationRow> transformations();
 
-// The text before the last '@' and the row named after it; the whole text and null when no row is named there, so that
-// a file name may have an '@'.
+// The text before the last '@', and the table row that is named after it. Where no row has that name, the whole text
+// and null, so that a file name may contain an '@'.
 std::pair<std::string_view, const TransformationRow*> split_transformation(std::string_view spec);
 
 }  // namespace broadside::bench

@@ -24,7 +24,7 @@
 namespace broadside::bench {
 namespace {
 
-// Cases of one class that are kept as files.
+// How many cases of one class are kept as files.
 constexpr std::uint64_t kMotionCasesPerClass = 3;
 
 MotionKind motion_kind_named(const std::string& name) {
@@ -50,11 +50,11 @@ std::vector<std::string> default_engines(MotionKind kind) {
           "bullet-cast[method=gjk]"};
 }
 
-// The questions of one study, with what they came from.
+// The questions of one study, and the bodies or the file that they were made from.
 struct Questions {
   MotionKind kind = MotionKind::kBoxes;
-  std::optional<BodySource> bodies;  // of kinds of bodies
-  std::vector<FileQuery> of_file;    // of a csv file; one a test
+  std::optional<BodySource> bodies;  // for the kinds of bodies
+  std::vector<FileQuery> of_file;    // the queries of a csv file, one for each test
   std::vector<MotionTest> tests;
 };
 

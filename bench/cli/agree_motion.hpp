@@ -24,7 +24,7 @@ struct MotionArguments {
 
 core::Exit agree_motion(const MotionArguments& arguments);
 
-// "exact-motion: ...": the engines that it can ask, for the help.
+// "exact-motion: ...": the engines that `agree --motion` can ask, for the help.
 std::string motion_engines_text();
 
 }  // namespace broadside::bench

@@ -26,7 +26,7 @@
 namespace broadside::bench {
 namespace {
 
-// Cases of one class that are kept as files: thousands of the same abort teach no more than a few.
+// How many cases of one class are kept as files: thousands of the same abort teach no more than a few.
 constexpr std::uint64_t kPairCasesPerClass = 4;
 
 struct AgreeArguments {
@@ -60,7 +60,7 @@ PairKind pair_kind_named(const std::string& name) {
 core::Stamp stamp_of_study(const CellSpec& cell, const std::string& scene, const std::string& build) {
   core::Stamp stamp;
   stamp.scene_name = scene;
-  // A digest of the words that the draw of pairs follows from; there is no scene to hash.
+  // There is no scene to hash, so the digest is that of the words from which the pairs are drawn.
   for (const char c : scene) stamp.scene_digest = core::splitmix64(stamp.scene_digest ^ static_cast<unsigned char>(c));
   stamp.engine = cell.row->id;
   auto settings = core::Settings::parse(cell.row->id, cell.row->settings, cell.settings);
@@ -74,7 +74,7 @@ core::Stamp stamp_of_study(const CellSpec& cell, const std::string& scene, const
   return stamp;
 }
 
-// Verdicts whose input is kept: no answer was given, or the engine is plainly at fault.
+// The input is kept for verdicts without an answer, and for those in which the engine is plainly wrong.
 bool is_worth_a_file(Agreement verdict) {
   return verdict != Agreement::kAgree && verdict != Agreement::kTouchingBand;
 }
@@ -128,7 +128,7 @@ core::Result<EngineStudy> study_engine(const CellSpec& cell, const PairSource& s
   return study;
 }
 
-// What one saved pair is, and how each engine answers it.
+// Prints what one saved pair is, and how each engine answers it.
 core::Exit repeat_case(const AgreeArguments& a) {
   auto read = read_case(a.case_file);
   if (!read) return complain(read.error());

@@ -24,7 +24,7 @@ struct BisectArguments {
   bool as_json = false;
 };
 
-// Run and check, by the program of each build.
+// The command for a scene: the program of each build runs it and checks the traces.
 std::string command_of(const bisect::TimedWork& work) {
   std::string run = "{program} run " + bisect::quoted(work.scene);
   for (const std::string& engine : work.engines) run += " --engine " + bisect::quoted(engine);

@@ -43,7 +43,7 @@ void print_candidates(const std::vector<CandidateRow>& rows) {
   }
 }
 
-// The engines that answered must agree; exit 3 when one did not answer.
+// The engines that answered must agree. Exit code 3 when an engine did not answer.
 core::Exit verdict_on_candidates(const std::vector<CandidateRow>& rows) {
   const CandidateRow* first = nullptr;
   core::Exit exit = core::Exit::kGood;
@@ -60,7 +60,7 @@ core::Exit verdict_on_candidates(const std::vector<CandidateRow>& rows) {
   return exit;
 }
 
-// By the twin, since all engines agree.
+// The candidates that the twin found; one engine is enough, since all engines agree.
 struct Found {
   continuous::MovingSurface surface;
   continuous::SurfaceFeatures features;
@@ -82,7 +82,7 @@ core::Result<Found> candidates_of(const MotionSource& source) {
   return out;
 }
 
-// With the arbiter's answers, as agree --motion reads them.
+// Writes the candidates and the arbiter's answers in the format that agree --motion reads.
 core::Status write_queries(const Found& found, const std::string& folder) {
   if (core::Status s = prepare_folder(folder); !s) return s;
   for (const auto kind : {continuous::FeatureKind::kVertexFace, continuous::FeatureKind::kEdgeEdge}) {

@@ -21,7 +21,7 @@ struct CheckArguments {
   std::string energy;
 };
 
-// Says which traces no law was judged on, and why; false when there is none.
+// Prints the traces on which no law was judged, and why. Returns false when there is none.
 bool tell_unjudged(const std::vector<core::CellVerdicts>& rows) {
   bool any = false;
   for (const core::CellVerdicts& row : rows) {

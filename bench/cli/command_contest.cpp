@@ -46,7 +46,7 @@ std::string command_of(const ContestArguments& a) {
   return text + fmt::format(" --repetitions {} --out {}", a.request.repetitions, a.out);
 }
 
-// Writes the manifest where none is there or another contest was planned; the cells that both have stay.
+// Writes the manifest. Finished cells stay in the folder, so those that an earlier plan had too are not run again.
 core::Status plan_into(const fs::path& folder, const ContestRequest& request) {
   auto campaign = contest::contest_campaign(request);
   if (!campaign) return campaign.error();
@@ -96,7 +96,7 @@ bool ask_terminal(const std::string& question) {
   return answer == "y" || answer == "Y" || answer == "yes";
 }
 
-// Packages of npm, by fetch_engine; `yes` agrees to everything.
+// How packages of npm are installed: by fetch_engine. With `yes` every question is answered with yes.
 contest::InstallPath npm_path(bool yes) {
   contest::InstallPath path;
   for (const core::EngineRow& row : fetched_engine_rows()) path.ids.emplace_back(row.id);
@@ -107,7 +107,7 @@ contest::InstallPath npm_path(bool yes) {
   return path;
 }
 
-// Runs what is missing, and keeps what each cell took beside the cells.
+// Runs the missing cells, and writes beside the cells how long each took.
 core::Status run_cells_of(const ContestArguments& a, const campaign::Manifest& manifest) {
   const fs::path folder = a.out;
   auto taken = contest::CellSeconds::read(folder);
@@ -128,7 +128,7 @@ core::Status run_cells_of(const ContestArguments& a, const campaign::Manifest& m
   return taken.value().write(folder, fmt::format("{}; {} cells at a time", machine_line(), a.jobs));
 }
 
-// Prints the cells and how long they take; makes no folder.
+// Prints the cells and how long they would take; makes no folder.
 core::Exit show_plan(const ContestArguments& a) {
   auto campaign = contest::contest_campaign(a.request);
   if (!campaign) return complain(campaign.error());
@@ -150,7 +150,8 @@ core::Exit run_contest(const ContestArguments& a) {
   }
   for (const contest::Entrant& e : entrants.value())
     if (!a.only_reports && !e.absent.empty()) fmt::print("{}: {}\n", e.engine, e.absent);
-  // A page of cells that another machine or another build did is made of the manifest that they were done from.
+  // With only_reports the cells may come from another machine or another build, so the page is made from the manifest
+  // with which they were run.
   if (!a.only_reports || !fs::exists(folder / "manifest.json"))
     if (core::Status s = plan_into(folder, a.request); !s) return complain(s.error());
   auto manifest = campaign::read_manifest(folder);

@@ -31,8 +31,8 @@ struct ConvergeArguments {
   std::string json;
 };
 
-// Runs the engine over the scene at a part of its step and gives its trace. The scene goes through a file, so that an
-// engine that runs in a child process gets the same one.
+// Runs the engine over the scene at a part of its step, and returns the trace. The scene is passed in a file, so that
+// an engine that runs in a child process gets the same one.
 core::Result<fs::path> recorded_part(const core::Scene& whole, int part, const CellSpec& spec,
                                      const ChildLimits& limits, const fs::path& folder) {
   core::Scene scene = whole;

@@ -16,7 +16,7 @@
 namespace broadside::bench {
 namespace {
 
-// Each scene's cells under its name.
+// Prints the cells of each scene under the scene's name.
 void print_cells(const std::vector<core::Cell>& cells) {
   for (auto begin = cells.begin(); begin != cells.end();) {
     const auto end = std::find_if(

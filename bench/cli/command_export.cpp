@@ -22,7 +22,7 @@ struct ExportArguments {
   std::string folder = "out/export";
 };
 
-// A file's stem from a scene's name: letters, digits, dots, dashes; all else becomes an underscore.
+// A file name made from a scene's name: all but letters, digits, dots and dashes becomes an underscore.
 std::string stem_of(const std::string& name) {
   std::string stem = std::filesystem::path(name).filename().string();
   for (const char* ending : {".toml", ".gltf", ".glb"})

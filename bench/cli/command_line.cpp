@@ -20,7 +20,7 @@
 namespace broadside::bench {
 namespace {
 
-// One a line, so that two changes that add one each do not conflict.
+// One command on each line, so that two changes that each add one do not conflict.
 constexpr AddCommand kCommands[] = {
     add_list,             //
     add_run,              //
@@ -71,7 +71,8 @@ core::Error unknown_subcommand(const CLI::App& program, const std::string& typed
   return {"unknown subcommand '" + typed + "'", "command line", core::advise_name(typed, views, "broadside --help")};
 }
 
-// What is wrong with the first argument, where it names nothing: said before CLI11 says that a subcommand is missing.
+// An error when the first argument names no subcommand. It is checked here, because CLI11 would only say that a
+// subcommand is missing.
 core::Status known_first(const CLI::App& program, const std::string& first) {
   if (first.starts_with('-')) {
     if (program.get_option_no_throw(first.substr(0, first.find('='))) != nullptr) return core::Done{};
@@ -81,7 +82,7 @@ core::Status known_first(const CLI::App& program, const std::string& first) {
   return unknown_subcommand(program, first);
 }
 
-// An error of the arguments after the subcommand tells which help explains them.
+// An error in the arguments after a subcommand says which help explains them.
 core::Error wrong_argument(const CLI::App& program, const std::string& first, const char* what) {
   if (!knows_subcommand(program, first)) return {what, "command line", "see broadside --help"};
   return {what, first, "see broadside " + first + " --help"};
@@ -143,7 +144,7 @@ int run_command_line(int argc, char** argv) {
   } catch (const std::bad_alloc&) {
     return gave_up("out of memory", "this run", kLess);
   } catch (const std::system_error& error) {
-    // The system's message when a thread finds no room for its stack.
+    // This is the system's message when there is no memory for a thread's stack.
     if (error.code() == std::errc::resource_unavailable_try_again)
       return gave_up("out of memory: no room for another thread", "this run", kLess);
     return gave_up(error.what(), "internal error", "please report it with the command");

@@ -15,7 +15,7 @@
 namespace broadside::bench {
 namespace {
 
-// Sound random scenes of a reduced run: as many as a few seconds allow.
+// How many sound random scenes a reduced run has: as many as a few seconds allow.
 constexpr std::uint32_t kReducedScenes = 8;
 
 struct MutantArguments {
@@ -45,7 +45,7 @@ void print(const MutationScore& score) {
     fmt::print("FALSE ALARM on {}: {}: {}\n", alarm.scene, alarm.validator, alarm.explanation);
 }
 
-// Who caught what: a line a mutation, a column a validator.
+// Prints which validator rejected which mutation: a line for each mutation, a column for each validator.
 void print_matrix(const MutationScore& score) {
   const auto validators = validation::validators();
   std::size_t width = 0;

@@ -16,7 +16,7 @@
 namespace broadside::bench {
 namespace {
 
-// Each part reads all boxes once.
+// Each part reads all boxes once, so there are at most this many.
 constexpr std::uint32_t kMostParts = 4096;
 
 struct PairsArguments {
@@ -59,7 +59,7 @@ void print_table(const std::vector<RaceRow>& rows) {
   }
 }
 
-// The engines that answered must agree; exit 3 when one did not answer.
+// The engines that answered must agree. Exit code 3 when an engine did not answer.
 core::Exit verdict_of(const std::vector<RaceRow>& rows) {
   const RaceRow* first = nullptr;
   core::Exit exit = core::Exit::kGood;

@@ -44,7 +44,7 @@ bool asks_for(const PaperArguments& a, const std::string& name) {
                      [&](const std::string& n) { return n == name || (n == "all" && is_of_paper); });
 }
 
-// Rows that the asked-for experiments show.
+// The rows that belong to the experiments that were asked for.
 std::vector<paper::PaperRow> shown(const PaperArguments& a, std::vector<paper::PaperRow> rows) {
   std::erase_if(rows, [&](const paper::PaperRow& row) {
     return std::none_of(row.experiments.begin(), row.experiments.end(),

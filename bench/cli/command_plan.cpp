@@ -17,7 +17,7 @@
 namespace broadside::bench {
 namespace {
 
-// The path of this program, for files that call it from other machines.
+// The path of this program, for the scripts that call it on other machines.
 std::string program_path() {
   std::array<char, PATH_MAX> path{};
   const ssize_t length = readlink("/proc/self/exe", path.data(), path.size() - 1);

@@ -35,7 +35,7 @@ void append(std::vector<T>& to, std::vector<T>&& from) {
   to.insert(to.end(), std::make_move_iterator(from.begin()), std::make_move_iterator(from.end()));
 }
 
-// The paper's experiments in a folder, when there are any.
+// Adds the paper's experiments of a folder to the report. False when there are none.
 core::Result<bool> add_paper(const std::string& folder, reports::ReportOptions& options) {
   auto part =
       paper::report_part(folder, options.guests.empty() ? "paper" : fmt::format("paper{}", options.guests.size() + 1));
@@ -45,7 +45,7 @@ core::Result<bool> add_paper(const std::string& folder, reports::ReportOptions& 
   return true;
 }
 
-// Rows of all folders, and what the page shows from the traces there.
+// The rows of all folders, with what the page shows from the traces there.
 core::Result<core::RunRows> gather(const ReportArguments& a, reports::ReportOptions& options) {
   core::RunRows all;
   for (const std::string& folder : a.folders) {
@@ -71,7 +71,7 @@ core::Result<core::RunRows> gather(const ReportArguments& a, reports::ReportOpti
   return all;
 }
 
-// By rsvg-convert of Debian's librsvg2-bin, at 300 dots per inch of a 640-point picture.
+// Converts the picture with rsvg-convert of Debian's librsvg2-bin, at 300 dots per inch for a width of 640 points.
 core::Status make_png(const std::filesystem::path& picture) {
   std::filesystem::path png = picture;
   png.replace_extension(".png");

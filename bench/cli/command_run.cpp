@@ -29,9 +29,9 @@ struct RunArguments {
   std::uint32_t narrow_every = 0;
   std::string folder = "out";
   std::string driver;
-  std::string in_process;  // folder for the one cell's row
+  std::string in_process;  // the folder for the row of the one cell
   ChildLimits limits;
-  std::string cell;   // of a campaign whose folder stands in the scene's place
+  std::string cell;   // of a campaign, whose folder is then given as SCENE
   std::string shard;  // likewise
   bool as_json = false;
 };
@@ -66,7 +66,7 @@ core::Result<RunPlan> make_plan(const RunArguments& a) {
   return plan;
 }
 
-// One cell in this process: record_cell_in_child starts it.
+// Records one cell in this process; record_cell_in_child starts this.
 core::Exit run_in_process(const RunArguments& a, const RunPlan& plan) {
   const CellSpec& spec = plan.cells.front();
   const CellRequest request{plan.source,    &plan.scene,       spec.row,    spec.settings, plan.frames, plan.level,
@@ -80,7 +80,7 @@ core::Exit run_in_process(const RunArguments& a, const RunPlan& plan) {
   return cell.value().state == core::CellState::kRecorded ? core::Exit::kGood : core::Exit::kMissing;
 }
 
-// SCENE is the folder that `broadside plan` made.
+// SCENE is then the folder that `broadside plan` made.
 core::Exit run_campaign(const RunArguments& a) {
   campaign::Selection selection;
   selection.id = a.cell;

@@ -94,7 +94,7 @@ core::Exit shrink_box_set(const ShrinkArguments& a, const CellSpec& engine) {
   datasets::BoxStream& stream = made.value();
   if (auto first = pairs_of(engine, {}); !first) return complain(first.error());
   const PairFinder find = [&engine](const std::vector<core::Box>& boxes) { return pairs_of(engine, boxes); };
-  // Of a moving stream, takes the first frame whose boxes alone show the fault.
+  // In a moving stream the first frame is taken whose boxes alone show the fault.
   for (std::uint32_t k = 0; k < stream.frames; ++k) {
     if (k > 0)
       if (core::Status s = stream.advance(stream.boxes); !s) return complain(s.error());
@@ -134,7 +134,7 @@ core::Exit write_case(const ShrinkArguments& a, const Question& q, const ShrunkS
   return core::Exit::kGood;
 }
 
-// --out names files by what they begin with. A folder gets them inside, under a name of ours.
+// --out is the beginning of the files' names. Where it is a folder, the files are put inside and get names of our own.
 std::string beginning_of(const std::string& out) {
   std::error_code ignored;
   const bool is_folder = out.ends_with('/') || std::filesystem::is_directory(out, ignored);

@@ -29,7 +29,7 @@ struct TimeArguments {
   std::uint32_t processes = 1;
   std::uint32_t narrow_every = 0;
   std::string out = "out/samples.json";
-  std::string in_process;  // folder for the samples of one cell
+  std::string in_process;  // the folder for the samples of one cell
   std::string turns;
   ChildLimits limits;
 };
@@ -43,7 +43,7 @@ core::Exit exit_of_samples(const RunPlan& plan, const std::vector<core::Sample>&
   return core::Exit::kGood;
 }
 
-// Arguments of a child process: everything but the number of processes and the file.
+// The arguments of a child process: all except the number of processes and the file.
 std::vector<std::string> own_arguments(const TimeArguments& a) {
   std::vector<std::string> arguments{a.scene.spec, "--repetitions", std::to_string(a.repetitions)};
   for (const std::string& engine : a.engines.engines) arguments.insert(arguments.end(), {"--engine", engine});
@@ -90,8 +90,8 @@ core::Exit time(const TimeArguments& a) {
       return complain(s.error());
     return exit_of_samples(plan, samples.value());
   }
-  // In a folder with recorded cells and verdicts a time is admitted or struck out; without them it is a number without
-  // proof.
+  // In a folder with recorded cells and verdicts a time is admitted or struck out. In any other folder it is a number
+  // without proof.
   auto rows = core::read_rows(plan.folder);
   if (!rows) return complain(rows.error());
   rows.value().samples = samples.value();

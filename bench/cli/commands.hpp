@@ -1,4 +1,5 @@
-// The subcommands. Each adds itself and its options to the program and runs when it was chosen.
+// The subcommands. Each function adds a subcommand and its options to the program; the subcommand runs when it was
+// chosen.
 #pragma once
 
 #include "core/result.hpp"

@@ -85,7 +85,7 @@ core::Status time_all(const JobPart& part, const RunPlan& plan, core::RunRows& r
   return core::write_samples(part.folder / "samples.json", rows.samples);
 }
 
-// Whether this very program took them.
+// Whether these samples were timed by this very build of the program.
 bool is_current(const std::vector<core::Sample>& samples) {
   const std::string build = build_line();
   return !samples.empty() && std::all_of(samples.begin(), samples.end(), [&](const core::Sample& sample) {

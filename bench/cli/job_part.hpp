@@ -12,7 +12,7 @@
 
 namespace broadside::bench {
 
-// A cell, and the labels of those that it is compared with after it was judged alone.
+// A cell, and the labels of the baselines that it is compared with after it was judged alone.
 struct PartRow {
   std::string cell;
   std::vector<std::string> against;
@@ -26,11 +26,11 @@ struct JobPart {
   std::uint32_t repetitions = 1;
 };
 
-// Leaves one trace per engine, cells.json, verdicts.json, samples.json and energy.json in the folder. Results of the
-// same build and scene that are there already are reused, verdicts only where each trace is the one that was judged.
+// Leaves one trace per engine, cells.json, verdicts.json, samples.json and energy.json in the folder. Existing results
+// of the same build and scene are reused; verdicts only where each trace is the one that was judged.
 core::Result<core::RunRows> run_part(const JobPart& part);
 
-// Labels of the rows whose engines are libraries or programs of others: what runs in a child process.
+// The labels of the rows whose engines are libraries or programs of others, which run in child processes.
 core::Result<std::vector<std::string>> foreign_labels(const JobPart& part);
 
 }  // namespace broadside::bench

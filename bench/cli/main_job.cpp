@@ -44,7 +44,7 @@ JobPart first_part(const MainJob& job) {
           job.repetitions};
 }
 
-// The engines of a contest, each as it comes.
+// The engines of a contest, each with its default settings.
 JobPart turning_part(const MainJob& job) {
   JobPart part{job.turning, {}, "", job.folder / kTurningFolder, job.repetitions};
   for (const std::string_view entrant : contest::default_entrants())
@@ -52,7 +52,7 @@ JobPart turning_part(const MainJob& job) {
   return part;
 }
 
-// A name in the turning scene's folder as it is seen from the job's.
+// The path, relative to the job's folder, of a file in the turning scene's folder.
 std::string moved_up(const std::string& file) {
   return file.empty() ? file : fmt::format("{}/{}", kTurningFolder, file);
 }
@@ -87,7 +87,7 @@ core::RunRows joined(core::RunRows rows, core::RunRows more) {
   return rows;
 }
 
-// What the page shows of the traces; rows with the file names of their own folders.
+// Adds what the page shows of the traces. The rows have the file names of their own folders.
 core::Status add_pictures(const MainJob& job, const core::RunRows& first, const core::RunRows& turning,
                           reports::ReportOptions& options) {
   auto energy = core::read_energy(job.folder);
@@ -95,7 +95,7 @@ core::Status add_pictures(const MainJob& job, const core::RunRows& first, const 
   options.energy = std::move(energy).value();
   options.series = penetration_of(first, job.folder);
   options.playbacks = playbacks_of(first, job.folder, share_of(2));
-  // Every run, because there motion is what is compared.
+  // All runs are shown, because on this scene the motions are compared.
   PlaybackShare all_runs = share_of(2);
   all_runs.every_run = true;
   all_runs.most_runs = turning.cells.size();

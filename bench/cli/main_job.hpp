@@ -1,5 +1,6 @@
-// The main job: two scenes on every engine, judged, timed and reported. In the first, bodies translate, and broad
-// phases, narrow phases and the pipeline are compared; in the second, bodies turn, and engines of rigid bodies are.
+// The main job: two scenes on every engine, judged, timed and reported. In the first scene bodies translate, and broad
+// phases, narrow phases and the pipeline are compared. In the second scene bodies turn, and engines of rigid bodies are
+// compared.
 #pragma once
 
 #include <cstdint>
@@ -21,14 +22,14 @@ struct MainJob {
 
 struct MainJobRows {
   core::RunRows all;  // the first scene's, then the turning scene's; file names are relative to the job's folder
-  // All but the turning scene's rows of engines made by others: what the exit code speaks of.
+  // All rows except those of the turning scene's engines that others made: these rows decide the exit code.
   core::RunRows deciding;
   core::RunRows others;  // the rest
 };
 
 // Leaves report.html, report.md and junit.xml (the deciding rows) in the folder, with the first scene's traces and
-// rows; those of the turning scene are in its folder "turning". Results of the same build and scene that are there
-// already are reused.
+// rows. Those of the turning scene are in the folder "turning" below it. Existing results of the same build and scene
+// are reused.
 core::Result<MainJobRows> run_main_job(const MainJob& job);
 
 // 1 when a deciding verdict failed, 3 when one is inconclusive or a cell is missing that this machine could have run,

@@ -13,7 +13,7 @@ namespace {
 
 using reports::plots::Point;
 
-constexpr auto kCells = static_cast<int>(kPanel);  // a row and a column: one a pixel
+constexpr auto kCells = static_cast<int>(kPanel);  // rows and columns, one for each pixel
 
 // A body's nearest surface in one pixel.
 struct Fragment {
@@ -64,7 +64,7 @@ class BodyDepths {
   std::map<int, double> depth_;
 };
 
-// For each body those that it is in front of: neighbors in depth, by what most of their common pixels say.
+// For each body, the bodies that it hides: neighbors in depth, of which it is in front in most common pixels.
 std::vector<std::vector<std::size_t>> hidden_by(std::span<const SeenBody> bodies, const PicturePlane& plane) {
   std::vector<Fragment> fragments;
   for (std::size_t b = 0; b < bodies.size(); ++b) BodyDepths(bodies[b], plane).add_to(fragments, b);
@@ -73,7 +73,7 @@ std::vector<std::vector<std::size_t>> hidden_by(std::span<const SeenBody> bodies
            : a.toward_eye != b.toward_eye ? a.toward_eye < b.toward_eye
                                           : a.body < b.body;
   });
-  std::map<std::pair<std::size_t, std::size_t>, int> pixels_in_front;  // of the second body, less those behind
+  std::map<std::pair<std::size_t, std::size_t>, int> pixels_in_front;  // where the second is in front, less the rest
   for (std::size_t k = 1; k < fragments.size(); ++k) {
     const Fragment &behind = fragments[k - 1], &before = fragments[k];
     if (behind.cell != before.cell) continue;

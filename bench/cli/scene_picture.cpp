@@ -25,7 +25,7 @@ Projected corner(const core::Box& box, unsigned bits) {
   return reports::plots::project(p, kPictureView);
 }
 
-// Corners around each visible face, and around all three together.
+// The corners of each visible face, and of the outline around all three faces.
 constexpr std::array<unsigned, 4> kRight{1, 3, 7, 5};
 constexpr std::array<unsigned, 4> kTop{2, 6, 7, 3};
 constexpr std::array<unsigned, 6> kOutline{0, 1, 5, 4, 6, 2};
@@ -43,7 +43,7 @@ std::string ring(const core::Box& box, const std::array<unsigned, N>& corners, c
   return data + "Z";
 }
 
-// The bodies of each panel, as they are drawn: their boxes where bodies translate, else all of them.
+// The bodies of each panel as they are drawn: as boxes where bodies translate, else with their shapes.
 struct PanelBodies {
   std::vector<std::vector<core::Box>> boxes;
   std::vector<SeenShape> shapes;
@@ -82,7 +82,7 @@ struct PanelBodies {
   }
 };
 
-// Which part of the domain is drawn: all of it where the bodies fill it, else the floor under them.
+// The part of the domain that is drawn: all of it where the bodies fill it, else the floor under them.
 core::Box drawn_domain(const core::Scene& scene, const core::Box& bodies) {
   core::Box d = scene.domain;
   float longest = 0.0F;

@@ -19,7 +19,8 @@ struct ScenePanel {
 };
 
 // SVG, panels side by side in one scale: parallel projection, y upward, nearer bodies over farther ones. Bodies that
-// translate are drawn as their boxes, which is also what contacts are made from; bodies that turn as they lie.
+// translate are drawn as their boxes, from which contacts are also made; bodies that turn are drawn in their shapes and
+// orientations.
 std::string scene_svg(const core::Scene& scene, std::span<const ScenePanel> panels);
 
 }  // namespace broadside::bench

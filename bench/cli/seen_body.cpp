@@ -11,7 +11,7 @@ namespace {
 
 using reports::plots::Projected;
 
-// The cosine of a fifth of a degree, which no eye sees.
+// The cosine of a fifth of a degree: a smaller difference in direction is not visible.
 constexpr float kSameWay = 0.99999F;
 
 SeenShape seen_shape(const core::Mesh& mesh) {
@@ -27,7 +27,7 @@ SeenShape seen_shape(const core::Mesh& mesh) {
   for (const core::HullFace& face : tables.faces) {
     const auto first = tables.corners.begin() + face.first_corner;
     shape.polygons.emplace_back(first, first + face.corner_count);
-    // Faces of a convex body that look the same way lie in one plane.
+    // Faces of a convex body with the same normal lie in one plane.
     std::uint32_t plane = 0;
     while (plane < normals.size() && core::dot(normals[plane], face.normal) < kSameWay) ++plane;
     if (plane == normals.size()) normals.push_back(face.normal);

@@ -1,4 +1,4 @@
-// A body that turns, as the picture of a scene sees it.
+// A body that turns, projected into the picture of a scene.
 #pragma once
 
 #include <cstdint>
@@ -13,19 +13,19 @@
 
 namespace broadside::bench {
 
-// What of a mesh is drawn, in body coordinates. A face of a convex mesh is one polygon or, of many corners, a few;
-// another mesh keeps its triangles.
+// The polygons of a mesh that are drawn, in body coordinates. A face of a convex mesh is one polygon, or a few if it
+// has many corners; another mesh keeps its triangles.
 struct SeenShape {
   bool is_convex = false;
   std::vector<core::Vec3> vertices;
   std::vector<std::vector<std::uint32_t>> polygons;  // anticlockwise seen from outside
-  std::vector<std::uint32_t> plane_of;               // by polygon, of a convex mesh: those of one face have one number
+  std::vector<std::uint32_t> plane_of;               // by polygon, of a convex mesh: one number for all of a face
 };
 
 // One for each mesh of the scene.
 std::vector<SeenShape> seen_shapes(const core::Scene& scene);
 
-// A shape at a pose. `shape` points to what the caller keeps.
+// A shape at a pose. `shape` points to an object that the caller keeps.
 struct SeenBody {
   const SeenShape* shape = nullptr;
   std::vector<core::Vec3> vertices;               // in the world, m

@@ -18,13 +18,13 @@ using reports::plots::pixels;
 using reports::plots::Point;
 using reports::plots::Projected;
 
-// A polyhedron that shows more faces is drawn as a smooth one, in four tones.
+// A polyhedron with more visible faces than this is drawn as a smooth body, in four tones.
 constexpr std::size_t kMostFaces = 16;
 constexpr int kBrightest = 5;
-// A corner of an outline is left out where it stands out by less than this, which no eye sees.
+// A corner is left out of an outline where it stands out by less than this, which is not visible.
 constexpr double kLeastCorner = 0.15;  // px
 
-// Whites and blacks over a body's color, by sixteenths, as upright boxes have them: 4 on top, -4 at the right.
+// White or black over a body's color, in sixteenths, as on upright boxes: 4 on the top face, -4 on the right one.
 std::string overlay(int tone) {
   return (tone > 0 ? "#fff" : "#000") + std::to_string(std::abs(tone));
 }
@@ -42,12 +42,12 @@ core::Vec3 normal_of(const SeenBody& body, std::span<const std::uint32_t> polygo
   return {static_cast<float>(x / length), static_cast<float>(y / length), static_cast<float>(z / length)};
 }
 
-// Of a flat face: upright boxes get their own tones.
+// The tone of a flat face. The faces of upright boxes get the tones of pictures of boxes.
 int tone_of(core::Vec3 normal) {
   return std::clamp(static_cast<int>(std::lround(4.0F * (normal.y - normal.x))), -kBrightest, kBrightest);
 }
 
-// From the tone of the shade, -4, to that of a surface that looks into the light, 4 (shaded_model.hpp).
+// Maps brightness to tones: -4 in the shade, 4 on a surface that faces the light (shaded_model.hpp).
 double tone_of_brightness(double brightness) {
   return 4.0 * (brightness - 0.65) / 0.35;
 }
@@ -58,7 +58,7 @@ std::string ring_of(const std::vector<Point>& corners) {
   return data.empty() ? data : data + "Z";
 }
 
-// Without the corners that are none in the picture, such as those of a box whose sides are cut.
+// Leaves out corners that do not show in the picture, such as those of a box whose sides are cut.
 std::vector<Point> simplified(const std::vector<Point>& corners) {
   std::vector<Point> kept;
   for (std::size_t k = 0; k < corners.size(); ++k) {
@@ -96,7 +96,7 @@ class BodyPainter {
  private:
   struct Face {
     core::Vec3 normal;
-    std::vector<Projected> points;  // of the corners of its polygons
+    std::vector<Projected> points;  // the corners of its polygons
   };
 
   [[nodiscard]] std::vector<Point> placed(const std::vector<Projected>& points) const {
@@ -110,7 +110,7 @@ class BodyPainter {
     return simplified(placed(outline_of(points)));
   }
 
-  // Of all faces that light from the eye's upper left gives at least this tone.
+  // The outline around all faces to which light from the eye's upper left gives at least this tone.
   [[nodiscard]] std::vector<Point> outline_from(double tone) const {
     std::vector<Projected> points;
     for (const auto& [plane, face] : faces_)
@@ -127,18 +127,18 @@ class BodyPainter {
       if (tone != 0) drawing_.path("", overlay(tone), data);
   }
 
-  // Of a round body the polygons above a tone are a patch that looks convex; what lies between the outline and the
+  // The polygons of a round body above a tone form a patch that looks convex. The region between the outline and the
   // patch of the middle tones is in the shade.
   void paint_smooth() {
     const std::string all = ring_of(outline_from(-kBrightest));
     drawing_.path(style_, "", all);
     std::vector<Point> lit = outline_from(-1.0);
-    std::reverse(lit.begin(), lit.end());  // the other way round: a hole
+    std::reverse(lit.begin(), lit.end());  // in the opposite direction it is a hole
     drawing_.path("", overlay(-3), all + ring_of(lit));
     for (const double tone : {1.5, 3.0}) drawing_.path("", overlay(2), ring_of(outline_from(tone)));
   }
 
-  // Pixels in rows, a rectangle a run.
+  // Draws the shape as rows of pixels, with a rectangle for each run of equal pixels.
   void paint_raster() {
     core::Mesh mesh;
     mesh.vertices = body_.vertices;
@@ -159,7 +159,7 @@ class BodyPainter {
     };
     std::string covered;
     std::map<int, std::string> by_tone;
-    // Runs of cells of which `same` holds with the run's first cell.
+    // Calls `take` for each run of cells; a run is as long as `same` holds between its first cell and the next.
     const auto each_run = [&](auto same, auto take) {
       for (std::uint32_t y = 0; y < side; ++y)
         for (std::uint32_t x = 0, end = 0; x < side; x = end) {
@@ -190,7 +190,7 @@ class BodyPainter {
   std::string style_;
   const PicturePlane& plane_;
   double left_;
-  std::map<std::uint32_t, Face> faces_;  // of a convex body, those that the eye sees, by plane
+  std::map<std::uint32_t, Face> faces_;  // of a convex body: the faces toward the eye, by plane
 };
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Bodies that turn, drawn into a picture of a scene: their true outlines, shaded by where their faces look.
+// Draws bodies that turn into a picture of a scene: their true outlines, shaded by the directions of their faces.
 #pragma once
 
 #include <cstddef>
@@ -11,7 +11,7 @@
 
 namespace broadside::bench {
 
-// bodies: all of the scene. Static ones are outlines over the others, as in pictures of bodies that translate.
+// bodies: all bodies of the scene. Static ones are drawn as outlines over the others, as where bodies translate.
 void draw_turned(reports::plots::Drawing& drawing, const core::Scene& scene, std::span<const SeenBody> bodies,
                  const PicturePlane& plane, double panel_left);
 

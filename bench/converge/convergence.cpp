@@ -125,7 +125,7 @@ core::Verdict judge_convergence(const Convergence& c) {
         least = order, v.limit = wanted, v.measured = order;
     }
     if (!holds) ++v.violations;
-    // The first figure speaks, or the first one that breaks the law.
+    // The explanation is that of the first figure, or of the first figure that breaks the law.
     if (v.checked == 1 || (!holds && v.violations == 1)) v.explanation = text;
   }
   if (v.checked > 0) v.outcome = v.violations > 0 ? core::Outcome::kFail : core::Outcome::kPass;

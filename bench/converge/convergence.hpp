@@ -10,14 +10,14 @@
 
 namespace broadside::bench {
 
-// One figure of the answer. Each list has one entry a step size, the longest step first.
+// One figure of the answer. Each list has one entry for each step size, the longest step first.
 struct FigureErrors {
   std::string what;
   std::string unit;
-  std::vector<double> error;  // the largest at times that all runs have
-  std::vector<double> limit;  // where that error is
-  double floor = 0.0;         // of the error at the shortest step: what does not fall with h
-  double share = 0.0;         // the largest error over its limit, of all runs
+  std::vector<double> error;  // the largest error at times that all runs have
+  std::vector<double> limit;  // the limit of that error
+  double floor = 0.0;         // what does not fall with h: the floor of the error at the shortest step
+  double share = 0.0;         // the largest ratio of an error to its limit, over all runs
   bool has_order = true;
   bool is_first_order = false;
 };
@@ -28,15 +28,15 @@ struct Convergence {
   std::vector<FigureErrors> figures;
 };
 
-// Observed between two neighboring step sizes; NaN where an error is zero.
+// The order that two neighboring step sizes show; NaN where an error is zero.
 double observed_order(const FigureErrors& figure, std::size_t finer);
 
-// Fails when a figure with an order falls more slowly than h^(p - 1/2), half way to the next lower order, over all step
-// sizes and does not end at its floor; or when one without an order breaks its limit at any step size. Inconclusive
-// when the answer has no figures. measured: the lowest order; limit: what it had to be.
+// Fails when a figure that has an order falls more slowly, over all step sizes, than h^(p - 1/2), half way to the next
+// lower order, and does not end at its floor. Also fails when a figure without an order breaks its limit at any step
+// size. Inconclusive when the answer has no figures. measured: the lowest order; limit: the order that it had to have.
 core::Verdict judge_convergence(const Convergence& convergence);
 
-// The traces of one scene at falling steps, each half of the one before, over the same time.
+// Reads the traces of one scene over the same time; each step is half of the one before.
 core::Result<Convergence> measure_convergence(const std::vector<std::filesystem::path>& traces);
 
 }  // namespace broadside::bench

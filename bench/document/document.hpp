@@ -55,7 +55,7 @@ struct Figure {
 struct Fold;
 using Block = std::variant<Heading, Paragraph, Notes, Table, Figure, Mosaic, Fold>;
 
-// Blocks behind a line that opens them. On paper a closed fold is its line alone, but for one whose blocks are printed.
+// Blocks behind a heading that opens them. On paper a closed fold is only its heading, unless its blocks are printed.
 struct Fold {
   std::string summary;
   std::string id;  // of the anchor
@@ -71,11 +71,12 @@ struct Document {
 
 // Self-contained; light and dark; fetches nothing.
 std::string html_text(const Document& document);
-// The same without the page around it, for another page: headings one level lower, every id behind `prefix`.
+// The same without the page around it, to be put into another page: headings one level lower, and every id begins with
+// `prefix`.
 std::string html_blocks(const Document& document, const std::string& prefix, int heading_level);
-// What these blocks need beside the report's own style.
+// The style that these blocks need in addition to the report's own.
 std::string_view block_style();
-// Pictures by file name: the SVG files lie beside it.
+// Pictures are named as SVG files that lie beside the text.
 std::string markdown_text(const Document& document);
 // A column of means gets a second one, NAME_std.
 std::string csv_text(const Table& table);

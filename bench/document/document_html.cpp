@@ -12,8 +12,8 @@ namespace {
 using reports::element;
 using reports::html;
 
-// A wide table scrolls sideways. A shadow at an edge says that columns go on there: it stays at the edge, and what
-// covers it scrolls with the table, so that it is seen until the last column is.
+// A wide table scrolls sideways. A shadow at an edge shows that there are more columns: the shadow stays at the edge,
+// and what covers it scrolls with the table, so the shadow is visible until the last column is.
 constexpr std::string_view kBlockStyle = R"(
 .wide { overflow-x: auto; margin: .4rem 0 1.2rem; scrollbar-width: thin; scrollbar-color: var(--soft) transparent;
   background: linear-gradient(to right, var(--paper) 60%, transparent) left / 2.5rem 100% no-repeat local,
@@ -54,7 +54,7 @@ figure.drawing figcaption { font-size: .8rem; color: var(--soft); max-width: 40r
 }
 )";
 
-// Styles of this page that the report's own style lacks.
+// Styles that this page needs and the report's own style lacks.
 constexpr std::string_view kOwnStyle = R"(
 body { padding-top: 1rem } h1 { margin: .6rem 0 .4rem } main > h2:first-child { margin-top: 1rem }
 nav ul { list-style: none; padding: 0; display: flex; flex-wrap: wrap; gap: .2rem 1.4rem; font-size: .875rem }
@@ -72,7 +72,7 @@ constexpr std::string_view kHeadStart = R"(<!doctype html>
 )";
 
 std::string as_html(const Heading&) {
-  return "";  // whose level and id depend on the page
+  return "";  // the page writes headings, because their level and id depend on it
 }
 
 std::string as_html(const Paragraph& paragraph) {
@@ -110,7 +110,7 @@ std::string as_html(const Table& table) {
   }
   const std::string inside =
       element("caption", html(table.caption)) + reports::table_head(columns) + element("tbody", "\n", rows);
-  // Columns of sentences need more room than others on paper too.
+  // Columns of sentences need more room than others, on paper too.
   bool has_words = false;
   for (std::size_t c = 0; c < table.columns.size(); ++c) has_words = has_words || is_of_words(c);
   return element(has_words ? "div.wide.worded" : "div.wide",
@@ -127,7 +127,7 @@ std::string as_html(const Mosaic& mosaic) {
 }
 
 std::string as_html(const Fold&) {
-  return "";  // whose headings depend on the page
+  return "";  // the page writes folds, because their headings depend on it
 }
 
 std::string contents(const Document& document) {

@@ -45,7 +45,7 @@ std::string as_markdown(const Mosaic& mosaic) {
   return markdown_of(mosaic);
 }
 
-// Text has nothing to fold.
+// Markdown text cannot fold, so all blocks are written.
 std::string as_markdown(const Fold& fold) {
   std::string out = "### " + markdown(fold.summary) + "\n\n";
   for (const Block& block : fold.blocks) out += std::visit([](const auto& b) { return as_markdown(b); }, block);

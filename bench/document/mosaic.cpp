@@ -11,7 +11,7 @@ namespace {
 using reports::element;
 using reports::html;
 
-// Squares keep their size on every screen and on paper; a screen that is too narrow scrolls sideways.
+// Squares keep their size on every screen and on paper; where a screen is too narrow, the table scrolls sideways.
 constexpr std::string_view kStyle = R"(
 .wide.mosaic table { width: auto; min-width: 0; table-layout: auto; font-size: .75rem; border-collapse: separate;
   border-spacing: 1px }

@@ -1,4 +1,4 @@
-// A large table as small squares: so many that words would not fit a screen.
+// A large table as small squares, for so many cells that words would not fit a screen.
 #pragma once
 
 #include <string>
@@ -11,9 +11,9 @@ namespace broadside::bench {
 
 struct Square {
   Tone tone = Tone::kPlain;
-  bool is_open = false;  // a bad one whose cause nobody knows: it stands out
+  bool is_open = false;  // a bad one of unknown cause: it stands out
   std::string mark;      // a character or two, so that no state is told by color alone
-  std::string words;     // what a pointer that rests on it, or a reader of screens, is told
+  std::string words;     // what a tooltip shows and a screen reader reads
   std::string target;    // the anchor on this page that says more; empty = none
 };
 
@@ -35,10 +35,10 @@ struct Mosaic {
   std::vector<Square> legend;  // `words` stand beside each
 };
 
-// A table whose column heads stand upright, and its legend.
+// An HTML table with upright column heads, and its legend.
 std::string html_of(const Mosaic& mosaic);
 std::string_view mosaic_style();
-// A line of marks a row, as wide as there are columns.
+// One line of marks for each row, with one mark for each column.
 std::string markdown_of(const Mosaic& mosaic);
 
 }  // namespace broadside::bench

@@ -1,4 +1,4 @@
-// What a cell says at a glance.
+// The color by which a cell shows its meaning.
 #pragma once
 
 #include <string_view>

@@ -1,5 +1,5 @@
 # Writes text files as a C++ source. In: ROOT (of the tree), FILES (paths from there, separated by |), OUT (the source).
-# Text is read and written without lists, which would lose semicolons.
+# Text is read and written without CMake lists, in which semicolons would be lost.
 string(REPLACE "|" ";" paths "${FILES}")
 file(WRITE ${OUT} "#include \"bench/fetched/program_files.hpp\"\n\nnamespace broadside::bench {\n\n")
 file(APPEND ${OUT} "std::span<const ProgramFile> program_files() {\n  static const ProgramFile kFiles[] = {\n")

@@ -39,12 +39,12 @@ fs::path root_of_all() {
   return cache.empty() ? fs::path() : cache / "engines";
 }
 
-// "jolt.mjs" in a tree of its own.
+// The path of "jolt.mjs" below a folder that is laid out like this tree.
 fs::path program_in(const fs::path& folder, std::string_view id) {
   return folder / "reference" / "programs" / id / (std::string(id) + ".mjs");
 }
 
-// Files that a program needs: its folder's, what all programs share, and the client.
+// Whether a program needs this file: those of its folder, those that all programs share, and the client.
 bool belongs_to(std::string_view path, std::string_view id) {
   constexpr std::string_view kPrograms = "reference/programs/";
   if (!path.starts_with(kPrograms)) return true;
@@ -52,7 +52,7 @@ bool belongs_to(std::string_view path, std::string_view id) {
   return rest.find('/') == std::string_view::npos || rest.starts_with(std::string(id) + "/");
 }
 
-// A program of another version of this tree is another one: its files are compared.
+// Whether the installed program is that of this version: its files are compared.
 bool is_current(const fs::path& folder, std::string_view id) {
   const auto files = program_files();
   return std::all_of(files.begin(), files.end(), [&](const ProgramFile& file) {

@@ -13,8 +13,8 @@
 
 namespace broadside::bench {
 
-// As rows of the table of engines: name, what, and why it is absent. Their settings are the program's own and known
-// once it is installed.
+// The engines as rows of the table of engines: name, what it is, and why it is absent. The settings are those of the
+// program, so they are known only when it is installed.
 std::span<const core::EngineRow> fetched_engine_rows();
 
 // "node FOLDER/reference/programs/jolt/jolt.mjs" of an installed engine; empty for others.
@@ -24,8 +24,8 @@ std::string fetched_command(std::string_view id);
 std::filesystem::path fetched_folder(std::string_view id);
 
 // Writes the program's files and installs its package with npm, exactly as its lock file says. A second call does
-// nothing. Whole or not at all: another folder takes the final name at the end. Errors: unknown name, no npm, no
-// network (npm's own last line), a disk that is full.
+// nothing. The program appears whole or not at all, because its folder gets the final name at the end. Errors: unknown
+// name, no npm, no network (npm's own last line), a full disk.
 core::Status fetch_engine(std::string_view id, const std::function<void(std::string_view)>& say);
 
 }  // namespace broadside::bench

@@ -11,7 +11,7 @@ namespace broadside::bench {
 // Which trace is which, what was compared, the first difference, and the contact history. Ends with a newline.
 std::string difference_text(const core::TraceReader& a, const core::TraceReader& b, const TraceDifference& difference);
 
-// The same as one JSON object. Values are texts with digits enough to name their bits; NaN and infinity survive.
+// The same as one JSON object. Values are texts with enough digits to name their bits, so NaN and infinity are kept.
 std::string difference_json(const core::TraceReader& a, const core::TraceReader& b, const TraceDifference& difference);
 
 }  // namespace broadside::bench

@@ -13,8 +13,8 @@ using validation::BodyState;
 using validation::kSubnormal;
 using validation::length;
 
-// How many operations of an engine round when it works out h g: one where it multiplies, five where it goes by forces
-// (the mass, m g, 1 / m, and two products).
+// How many operations an engine rounds to compute h g: one where it multiplies, five where it uses forces (the mass, m
+// g, 1 / m, and two products).
 constexpr double kMethodPull = 1.0;
 constexpr double kForcePull = 5.0;
 

@@ -14,8 +14,8 @@ using core::bit;
 using core::Group;
 using validation::rounding;
 
-// Two consecutive steps decide it, or the first one: are the detection states those at the beginning of the step?
-// Bodies that do not move decide nothing.
+// Whether the detection states are those at the beginning of a step in which some body moved. Decided by the first
+// step, or else by the first two consecutive steps of the trace. Where no body moves, nothing can be decided: false.
 bool looked_before_moving(const core::TraceReader& trace) {
   constexpr std::uint32_t kBoth = bit(Group::kBodies) | bit(Group::kDetection);
   const auto& steps = trace.steps();
@@ -40,8 +40,8 @@ bool looked_before_moving(const core::TraceReader& trace) {
   return has_moved;
 }
 
-// When the engine looked for contacts: "start", or "end" for a free body's pose after it was moved. A pose between that
-// is not the method's is a moment of its own.
+// When the engine looked for contacts: at the "start" of the step, or at its "end", with the pose of a free body after
+// it was moved. An engine that is not the method's may declare another moment; then this is the word that it declares.
 std::string_view moment_of(const core::TraceReader& trace) {
   const core::Declaration& declared = trace.header().declaration;
   if (looked_before_moving(trace)) return "start";
@@ -69,7 +69,7 @@ FlightRule::FlightRule(const core::TraceReader& recorded, const core::TraceReade
       touches_(scene_.bodies.size()),
       motions_(replayed.header()),
       has_outgrown_(scene_.bodies.size()) {
-  // A spring's pull is no constant, so that no bound is derived for its body.
+  // A spring's pull is not constant, so no bound is derived for its body.
   for (const core::Spring& spring : scene_.springs) touches_.touch(spring.body, 1);
 }
 
@@ -96,7 +96,7 @@ void FlightRule::advance(const validation::Motion& motion) {
   }
 }
 
-// Our own frames, of which there is one a step.
+// Reads our own frames up to this step; the replay has a frame for every step.
 core::Status FlightRule::advance_to(const core::FrameRecord& recorded) {
   const std::uint32_t ours = replayed_.header().groups;
   const std::uint32_t theirs = Touches::groups_read(recorded_.header().groups);
@@ -111,7 +111,8 @@ core::Status FlightRule::advance_to(const core::FrameRecord& recorded) {
     const validation::Motion* motion = motions_.read(frame, ours_before_ ? &*ours_before_ : nullptr);
     if (motion != nullptr) advance(*motion);
     touches_.note(frame, ours, motion);
-    // What the recorder met in steps that it left out, or does not tell, is not known: bodies must be alone in ours.
+    // A recorder may have touched bodies in steps that it left out, or record no contacts at all. Then only bodies that
+    // are alone in our own run stay in the comparison.
     const bool is_told = theirs != 0 && frame.step == recorded.step;
     if (!is_told) touches_.note(frame, 0, motion);
     if (theirs == bit(Group::kPairs)) touches_.note(frame, ours & theirs, nullptr);
@@ -139,7 +140,7 @@ void FlightRule::enter(const core::FrameRecord& a, const core::FrameRecord& b) {
   for (std::uint32_t i = 0; i < scene_.body_count(); ++i) judged_ += touches_.is_touched(i) ? 0 : 1;
 }
 
-// The allowance for a number that one of the traces holds in float64 and the other in float32.
+// The allowance for rounding where one trace holds a number in float64 and the other in float32.
 double FlightRule::narrowed(double value) const {
   const bool is_mixed = has(recorded_, Group::kWideBodies) != has(replayed_, Group::kWideBodies);
   return is_mixed ? 2.0 * rounding(1) * std::abs(value) : 0.0;
@@ -151,7 +152,7 @@ bool FlightRule::orientations_agree(std::uint32_t body) const {
   const auto p = are_wide_ ? to_quatd(a_->wide.orientation[body]) : to_quatd(a_->orientation[body]);
   const auto q = are_wide_ ? to_quatd(b_->wide.orientation[body]) : to_quatd(b_->orientation[body]);
   const double apart = validation::angle_of(validation::conjugate(p) * q);
-  // Four rounded components each, twice what they move the angle by.
+  // Each of the two quaternions has four rounded components; the angle moves by twice as much as they do.
   return apart <= bounds_.of(body).angle_rad + (are_wide_ ? 0.0 : 2.0 * rounding(8));
 }
 
@@ -167,7 +168,7 @@ bool FlightRule::passes(const core::FrameDifference& d) {
     const double arm = validation::length(bounds_.facts(body).center_of_mass);
     return off <= bound.position_m + arm * std::min(2.0, bound.angle_rad) + narrowed(d.a.value());
   }
-  // A bound is a position plus a number from the mesh, so each engine makes one more addition.
+  // A bound of a box is a position plus a number from the mesh, so each engine rounds one more addition.
   if (d.field.ends_with("/boxes"))
     return has_margin_ || off <= bound.position_m + 2.0 * rounding(1) * std::abs(d.a.value());
   if (!is_turning_) return off <= narrowed(1.0);  // numbers of a unit quaternion

@@ -1,4 +1,4 @@
-// A simulation repeated by another engine: both fly alike until a body is first touched.
+// A simulation that another engine repeats: both must agree on each body until it is first touched.
 #pragma once
 
 #include <cstdint>
@@ -14,15 +14,16 @@
 
 namespace broadside::bench {
 
-// Ends of steps are always compared, within FlightBounds. After a body's first touch in either trace no bound is
-// derived and nothing of it is judged: contacts are answered by different models, and double a difference at every
-// bounce. The orientation of a body is compared until its bound is half a turn.
+// States at the ends of steps are always compared, within FlightBounds. After a body's first touch in either trace
+// nothing of it is judged and no bound is derived: engines answer contacts by different models, and every bounce
+// doubles a difference. The orientation of a body is compared until its bound is half a turn.
 //
-// Detection states are compared where both engines look at the same moment; boxes where no engine adds a margin to them
-// and bodies do not turn, because a box of a turned body may be loose (box-contains judges each alone).
+// Detection states are compared where both engines look for contacts at the same moment. Boxes are compared where no
+// engine adds a margin to them and bodies do not turn, because the box of a turned body may be loose (box-contains
+// judges each box alone).
 class FlightRule final : public DifferenceRule {
  public:
-  // Both outlive the rule; replayed has every step.
+  // Both readers must outlive the rule; `replayed` must have every step.
   FlightRule(const core::TraceReader& recorded, const core::TraceReader& replayed);
   [[nodiscard]] std::uint32_t groups() const override;
   [[nodiscard]] bool includes_bookkeeping() const override { return false; }
@@ -40,7 +41,7 @@ class FlightRule final : public DifferenceRule {
   // Bodies whose orientation left the comparison because its bound reached half a turn, and the first such step.
   [[nodiscard]] std::uint64_t outgrown() const { return outgrown_count_; }
   [[nodiscard]] std::uint64_t first_outgrown() const { return first_outgrown_; }
-  [[nodiscard]] const std::string& error() const { return error_; }  // of reading; empty = none
+  [[nodiscard]] const std::string& error() const { return error_; }  // of reading a trace; empty = none
 
  private:
   core::Status advance_to(const core::FrameRecord& recorded);

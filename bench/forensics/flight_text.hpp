@@ -1,4 +1,4 @@
-// What two engines that fly alike have to agree in, and what was left out, in words.
+// Texts that say in what two engines must agree while bodies fly freely, and what was left out.
 #pragma once
 
 #include <string>
@@ -8,7 +8,7 @@
 
 namespace broadside::bench {
 
-// a recorded, b repeats.
+// a is the recorded trace, b the one that repeats it.
 std::string flight_expectation(const core::TraceHeader& a, const core::TraceHeader& b);
 
 // How many states were judged, and when and why bodies left the comparison.

@@ -37,7 +37,7 @@ bool has(const core::TraceReader& trace, std::uint32_t groups) {
   return (trace.header().groups & groups) == groups;
 }
 
-// True for a simulation: the trace has states, or digests alone, and its engine was not fed.
+// True for a simulation: the trace has states, or digests alone, and no other trace drove its engine.
 bool is_simulation(const core::TraceReader& trace) {
   return trace.header().driver.empty() && (trace.header().groups == 0 || has(trace, bit(Group::kBodies)));
 }
@@ -59,8 +59,8 @@ core::Result<std::string> choose(const core::TraceReader& trace, const CellSpec&
                      where, "a broad phase needs boxes and pairs, a narrow phase poses and separations"};
 }
 
-// The steps that the trace has. Which of them are recorded decides more than which can be compared: a body octree that
-// was true for all recorded steps is recorded once.
+// The steps that the trace has. The replay must record the same steps, because they also decide what a frame holds: a
+// body octree that is the same in all recorded steps is recorded once.
 core::Result<StepSelection> selection_of(const core::TraceReader& trace) {
   const std::string windows = windows_of(trace.header());
   std::vector<std::string> each;
@@ -100,8 +100,8 @@ core::Result<std::filesystem::path> record_again(const core::TraceReader& trace,
   return folder / cell.value().trace_file;
 }
 
-// Steps that only the replay has are no difference, because it records every step. It has no initial state, which is
-// the scene's.
+// Steps that only the replay has are not a difference, because it records every step. The replay has no initial state:
+// that is the scene's.
 core::Status compare_by(DifferenceRule& rule, const core::TraceReader& a, const core::TraceReader& b, Replay& replay) {
   auto found = compare_traces(a, b, &rule);
   if (!found) return found.error();
@@ -163,7 +163,8 @@ core::Result<core::TraceReader> repeat(const core::TraceReader& trace, const cor
     return core::TraceReader::open(replay.file);
   };
   auto own = record(Steps::kOfTheTrace);
-  // Bits are compared step by step; a bound between two engines grows with every step, also with those left out.
+  // Bits are compared step by step, but a bound between two engines grows with every step, also in steps left out of
+  // the trace.
   const bool is_sparse = trace.steps().back() > trace.frame_count();
   const bool is_foreign = own && !validation::are_twins(trace.header(), own.value().header());
   if (replay.capability != "dynamics" || !is_sparse || !is_foreign) return own;

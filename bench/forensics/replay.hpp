@@ -1,4 +1,4 @@
-// Runs an engine of ours on what a trace recorded, and compares.
+// Runs one of our engines on what a trace recorded, and compares the results.
 #pragma once
 
 #include <cstdint>
@@ -17,14 +17,14 @@ struct Replay {
   std::string expectation;     // what had to agree, one sentence
   std::filesystem::path file;  // the engine's own trace
   TraceDifference difference;
-  // Whether anything was judged; in a simulation in which every body was touched at once, nothing is.
+  // Whether anything was judged. Nothing is judged in a simulation in which every body is touched at once.
   bool has_judged = true;
   std::string remark;  // what was left out, one sentence; empty when nothing was
 };
 
-// capability: "dynamics", "broad" or "narrow", or empty to choose: a trace of a simulation is simulated again, boxes
-// are fed to a broad phase, poses and measured pairs to a narrow phase. The engine's trace goes to folder. Errors: a
-// trace or an engine that does not have what is asked for; an engine that fails.
+// capability: "dynamics", "broad" or "narrow", or empty to choose. A simulation is run again, recorded boxes are given
+// to a broad phase, and poses and measured pairs to a narrow phase. The engine's trace goes to `folder`. Errors: a
+// trace or an engine that lacks what is asked for; an engine that fails.
 core::Result<Replay> replay_trace(const std::filesystem::path& trace, const CellSpec& engine,
                                   const std::string& capability, const std::filesystem::path& folder);
 

@@ -30,7 +30,7 @@ SeparationRule::SeparationRule(const core::Scene& scene) {
   std::vector<double> of_mesh;
   for (const auto& mesh : scene.meshes) {
     double reach = 0.0;
-    // A turned vertex keeps its length.
+    // A vertex keeps its distance from the origin when it is turned.
     for (const core::Vec3 v : mesh->vertices)
       reach = std::max(reach, std::sqrt(double{v.x} * v.x + double{v.y} * v.y + double{v.z} * v.z));
     of_mesh.push_back(reach);

@@ -1,4 +1,4 @@
-// How far a replay may be from what was recorded: nothing where bits are promised, derived limits elsewhere.
+// How far a replay may differ from the recording: not at all where bits are promised, else by derived limits.
 #pragma once
 
 #include <cstdint>
@@ -10,8 +10,8 @@
 
 namespace broadside::bench {
 
-// Pairs of an engine that was fed the recorded boxes: equal as sets. Where the recorder does not promise exact pairs
-// (margins, stale pairs), pairs that only it has are counted and pass.
+// Pairs of an engine that was given the recorded boxes: they must be equal as sets. Where the recorder does not promise
+// exact pairs (margins, stale pairs), pairs that only the recording has are counted and pass.
 class PairRule final : public DifferenceRule {
  public:
   explicit PairRule(bool is_exact) : is_exact_(is_exact) {}

@@ -33,7 +33,7 @@ void Touches::note(const core::FrameRecord& frame, std::uint32_t groups, const v
   } else if (read == bit(Group::kPairs)) {
     for (const core::Pair p : frame.pairs) touch(p.i, frame.step), touch(p.j, frame.step);
   }
-  // Neither contacts nor pairs with faces: only shapes can tell.
+  // Without contacts or points the trace does not say which bodies met a face: only the motion of their boxes can.
   if (motion == nullptr || read == bit(Group::kContacts) || read == bit(Group::kPoints)) return;
   for (std::uint32_t i = 0; i < motion->bodies.size(); ++i)
     if (motion->facts[i].is_dynamic && !motion->bodies[i].is_alone) touch(i, frame.step);

@@ -9,15 +9,17 @@
 
 namespace broadside::bench {
 
-// What a trace says touches a body: its contacts; without them its points that have an impulse or no gap; without them
-// a candidate pair; without them a body that may have met another or the domain, by the boxes that they swept.
+// Which bodies a trace shows to be touched: those with a contact; without contacts, those with a point that has an
+// impulse or no gap; without points too, those in a candidate pair, and those whose swept boxes may have met another
+// body or the domain.
 class Touches {
  public:
   explicit Touches(std::size_t body_count) : is_touched_(body_count), was_touched_before_(body_count) {}
 
-  // Ahead of the first note of a step.
+  // Call it before the first note of a step.
   void begin_step() { was_touched_before_ = is_touched_; }
-  // What a trace with these groups says. Of no contacts and points, motion tells, which may be null.
+  // Notes the touches that a frame of a trace with these groups shows. Where the trace has neither contacts nor points,
+  // motion is used, which may be null.
   void note(const core::FrameRecord& frame, std::uint32_t groups, const validation::Motion* motion);
   void touch(std::uint32_t body, std::uint64_t step);
 
@@ -26,7 +28,7 @@ class Touches {
   [[nodiscard]] std::uint64_t count() const { return count_; }       // bodies
   [[nodiscard]] std::uint64_t first_step() const { return first_; }  // 0 = none
 
-  // The groups that note() reads of a trace that has these.
+  // The one of a trace's groups that note() reads.
   static std::uint32_t groups_read(std::uint32_t groups);
 
  private:

@@ -9,7 +9,7 @@ namespace {
 
 constexpr std::uint64_t kHistoryFrames = 10;
 
-// Without its length: a run of 100 frames and one of 200 are of one scene here.
+// The digest of the scene without its length: runs of 100 and of 200 frames are of one scene here.
 std::uint64_t endless_digest(core::Scene scene) {
   scene.frames = 1;
   return core::scene_digest(scene);
@@ -25,8 +25,8 @@ core::Status check_same_scene(const core::TraceReader& a, const core::TraceReade
       a.path().string() + " and " + b.path().string(), "record both from one scene"};
 }
 
-// Digests can be compared when two traces hold the same groups and both engines simulated, or both were fed. Traces of
-// other programs may leave the digest at zero.
+// Digests can be compared when both traces hold the same groups, and both engines simulated or both were driven by
+// another trace. Traces of other programs may leave the digest at zero.
 bool have_one_digest(const core::TraceReader& a, const core::TraceReader& b) {
   const auto is_zero = [](std::uint64_t d) { return d == 0; };
   const auto& p = a.digests();

@@ -19,9 +19,9 @@ namespace broadside::bench {
 class DifferenceRule {
  public:
   virtual ~DifferenceRule() = default;
-  // Of these only the groups that both have are compared.
+  // Only those of these groups are compared that both traces have.
   [[nodiscard]] virtual std::uint32_t groups() const { return ~0U; }
-  // Also the counts beside the pairs, the time, and the digest where it means the same in both traces.
+  // Whether the counts beside the pairs, the time, and the digest (where both traces mean the same by it) are compared.
   [[nodiscard]] virtual bool includes_bookkeeping() const { return true; }
   // Called with each two frames before they are compared.
   virtual void enter(const core::FrameRecord& /*a*/, const core::FrameRecord& /*b*/) {}
@@ -31,7 +31,7 @@ class DifferenceRule {
 
 struct HistoryContact {
   std::uint64_t step = 0;
-  bool is_of_b = false;  // applied in the second trace; before the first difference both have the same
+  bool is_of_b = false;  // applied in the second trace; before the first difference both traces have the same
   core::Contact contact;
 };
 
@@ -41,7 +41,7 @@ struct HistoryPoint {
   core::ContactPoint point;
 };
 
-// A key that the two engines declare otherwise; "not declared" where one does not.
+// A key that the two engines declare differently; "not declared" where an engine does not.
 struct DeclaredDifference {
   std::string key;
   std::string a;
@@ -67,7 +67,7 @@ struct TraceDifference {
   // Likewise of points of contact, in traces that have them.
   bool has_points = false;
   std::vector<HistoryPoint> points;
-  // Engines may declare otherwise and still leave the same bits: no difference of the traces.
+  // Engines may declare different things and still leave the same bits, so this is no difference of the traces.
   std::vector<DeclaredDifference> declared;
   // One of the two holds its states in float64: both are compared as float32.
   bool is_narrowed = false;
@@ -75,8 +75,9 @@ struct TraceDifference {
   [[nodiscard]] bool is_same() const { return !first && only_in_a == 0 && only_in_b == 0; }
 };
 
-// Streams both, one frame of each in memory at a time; reads a frame's groups once. rule: null = bits. Errors: another
-// scene (frames, its length, apart), no step in both, nothing recorded that both have, a frame that cannot be read.
+// Streams both traces, with one frame of each in memory at a time; reads a frame's groups once. rule: null = compare
+// bits. Errors: another scene (except for the number of frames), no step in both, no recorded group in both, a frame
+// that cannot be read.
 core::Result<TraceDifference> compare_traces(const core::TraceReader& a, const core::TraceReader& b,
                                              DifferenceRule* rule = nullptr,
                                              const std::function<void(std::uint64_t)>& progress = {});

@@ -1,5 +1,5 @@
-// Pairs of a set of boxes that is spread over processes: the set is cut into as many ranges of space as there are
-// processes, and what belongs to the same range meets in one of them. The first process prints one JSON line.
+// Pairs of a set of boxes that is spread over processes. Space is cut into as many ranges as there are processes, and
+// each process gets all boxes that reach into its range. The first process prints one JSON line.
 //   mpirun -n 3 broadside_mpi_pairs BOXES [ENGINE]      e.g. boxes:uniform:1000000 octree-cpu
 // The digest is that of `broadside pairs BOXES --frames 1`. Exit codes are those of broadside.
 #include <mpi.h>
@@ -19,7 +19,7 @@ namespace {
 
 struct Found {
   std::uint64_t boxes = 0;
-  std::uint64_t dealt = 0;  // boxes of all parts
+  std::uint64_t dealt = 0;  // boxes of all parts together
   std::uint64_t sent = 0;   // bytes between processes
   std::uint64_t pairs = 0;
   std::uint64_t digest = 0;
@@ -27,7 +27,7 @@ struct Found {
   double find_s = 0.0;
 };
 
-// Of this process, in a step that all of them do together.
+// Finds the pairs of this process's part. All processes call it in the same step.
 core::Status find_part(core::BroadPhase& broad, const BoxSlice& slice, int process, Found& own) {
   MPI_Barrier(MPI_COMM_WORLD);
   const double start = MPI_Wtime();
@@ -44,7 +44,7 @@ core::Status find_part(core::BroadPhase& broad, const BoxSlice& slice, int proce
   return core::Done{};
 }
 
-// Sums of counts, the longest of times.
+// Combines the results of all processes: counts are summed, and of times the longest is taken.
 Found together(const Found& own) {
   Found all = own;
   MPI_Allreduce(&own.dealt, &all.dealt, 1, MPI_UINT64_T, MPI_SUM, MPI_COMM_WORLD);
@@ -63,7 +63,7 @@ core::Status run(const std::string& boxes, const std::string& engine_name, int p
   if (!engine) return engine.error();
   auto made = datasets::make_box_stream(boxes);
   if (!made) return made.error();
-  // A generator makes the whole set; a process keeps its slice, as though that were what it was given.
+  // A generator makes the whole set; each process keeps only its slice, as though it had been given no more.
   std::vector<core::Box> all = std::move(made.value().boxes);
   own.boxes = all.size();
   const auto begin_of = [&](int k) {
@@ -77,7 +77,7 @@ core::Status run(const std::string& boxes, const std::string& engine_name, int p
   return find_part(*engine.value().broad_phase, {slice, is_static, static_cast<std::uint32_t>(first)}, process, own);
 }
 
-// Only the errors of this process are here: others may wait for it, so all of them end.
+// Prints an error of this process and ends all processes, because others may wait for this one.
 int end_all(const core::Error& error) {
   std::fprintf(stderr, "%s\n", error.line().c_str());
   MPI_Abort(MPI_COMM_WORLD, static_cast<int>(error.exit));

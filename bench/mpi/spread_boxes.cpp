@@ -10,10 +10,10 @@
 namespace broadside::bench {
 namespace {
 
-// As many as core::cut_space looks at.
+// The sample has as many boxes as core::cut_space looks at.
 constexpr int kMostLookedAt = 65'536;
 
-// A box on its way.
+// A box as it is sent to another process.
 struct SentBox {
   core::Box box;
   std::uint32_t id = 0;
@@ -27,14 +27,14 @@ int process_count() {
   return count;
 }
 
-// Where each process's share begins.
+// The index at which each process's share begins.
 std::vector<int> begins_of(const std::vector<int>& counts) {
   std::vector<int> begins(counts.size());
   std::exclusive_scan(counts.begin(), counts.end(), begins.begin(), 0);
   return begins;
 }
 
-// A type of so many bytes, for as long as it is needed.
+// An MPI type of so many bytes, which is freed with this object.
 class ByteType {
  public:
   explicit ByteType(int bytes) {
@@ -75,7 +75,7 @@ core::Result<core::BoxPart> exchange_boxes(const BoxSlice& slice, const core::Sp
   std::vector<std::vector<SentBox>> to(processes);
   for (std::size_t k = 0; k < slice.boxes.size(); ++k) {
     const core::Box& box = slice.boxes[k];
-    // A box that ends before it begins would reach into no part.
+    // A box whose max is below its min would reach into no part and be lost.
     for (int axis = 0; axis < 3; ++axis)
       if (!(box.min[axis] <= box.max[axis]))
         return core::Error{"min is not below max", "box " + std::to_string(slice.first + k),
@@ -96,7 +96,7 @@ core::Result<core::BoxPart> exchange_boxes(const BoxSlice& slice, const core::Sp
   }
   MPI_Alltoall(out.data(), 1, MPI_INT, in.data(), 1, MPI_INT, MPI_COMM_WORLD);
   const std::uint64_t coming = std::accumulate(in.begin(), in.end(), std::uint64_t{0});
-  // Places are counted by MPI in an int: every process hears of it, since none may leave the exchange alone.
+  // MPI counts elements in an int. All processes take part in the check, since none may leave the exchange alone.
   const std::uint64_t own_most = std::max<std::uint64_t>(coming, going.size());
   std::uint64_t most = 0;
   MPI_Allreduce(&own_most, &most, 1, MPI_UINT64_T, MPI_MAX, MPI_COMM_WORLD);
@@ -109,7 +109,7 @@ core::Result<core::BoxPart> exchange_boxes(const BoxSlice& slice, const core::Sp
   const ByteType type(static_cast<int>(sizeof(SentBox)));
   MPI_Alltoallv(going.data(), out.data(), out_begins.data(), type.get(), there.data(), in.data(), in_begins.data(),
                 type.get(), MPI_COMM_WORLD);
-  // Slices follow each other, and so do the boxes of each: what comes is in the order of the set.
+  // Slices follow each other in the set, and boxes keep their order in a slice, so they arrive in the order of the set.
   core::BoxPart part;
   part.boxes.reserve(coming), part.is_static.reserve(coming), part.ids.reserve(coming);
   for (const SentBox& one : there) {

@@ -9,10 +9,10 @@
 
 namespace broadside::bench::paper {
 
-// Empty, or why the cell is left out: a + b N + c N^2 (cost_model.hpp), fitted to at least three finished cells of the
-// same model and method at smaller counts, predicts more than limit_s. Their times are wall times of recording and
-// timing with all loads, because a broad phase that is fast at a frame may take a minute to load. Empty for cells that
-// are not part of 'beyond'.
+// Says why the cell is left out; empty when it is tried. The model a + b N + c N^2 (cost_model.hpp) is fitted to at
+// least three finished cells of the same model and method at smaller counts, and must predict at most limit_s. Their
+// times are wall times of recording and timing with all loads, because a broad phase with fast frames may take a minute
+// to load. Empty for cells that are not part of 'beyond'.
 std::string why_too_long(const PaperCell& cell, std::span<const PaperCell> campaign, const CellFiles& files,
                          double limit_s);
 

@@ -12,19 +12,19 @@ namespace broadside::bench::paper {
 namespace {
 
 constexpr std::array<std::uint32_t, 5> kFactors{1, 3, 10, 30, 100};
-// The same few frames at every count. Pairs become more while bodies leave their first places, so other frames are
-// other work, and only a few can be had at the largest counts.
+// The same first frames at every count. The number of pairs grows while bodies leave their first places, so different
+// frames would be different work, and at the largest counts only a few frames can be run.
 constexpr std::uint32_t kMostFrames = 20;
 
-// Box tests a second that a cell is expected to do, for the limit alone: measured once for level A (0.2 ns a test on
-// two cores; 183 million in 138 us on an H100) and rounded down.
+// Box tests a second that a cell is expected to do. Used only to decide whether a cell is tried; measured once for
+// level A (0.2 ns a test on two cores; 183 million in 138 us on an H100) and rounded down.
 constexpr double kTestsPerSecondCpu = 3e9;
 constexpr double kTestsPerSecondGpu = 1e12;
 
 struct Method {
   std::string_view name;
   std::string_view settings;  // of the octree engine
-  double tests_a_pair;        // of bodies, from the published start; 0 = not brute force
+  double tests_a_pair;        // tests for each pair of bodies with the published start; 0 = not brute force
 };
 constexpr std::array<Method, 5> kOctreeMethods{{
     {"tree", "", 0.0},

@@ -19,11 +19,11 @@ struct Family {
   std::string id;
   bool is_broad = false;
 
-  // Stage of the pipelines, and whole "frame" of engines that are a broad phase alone.
+  // The stage that is compared: a stage of the pipelines, or the whole "frame" of engines that are a broad phase alone.
   [[nodiscard]] std::string stage_of(const std::string& method) const {
     return is_broad && !is_broad_only(method) ? "broad" : "frame";
   }
-  // A, B and C start from boxes of levels, so their broad stage is other work.
+  // A, B and C start from boxes of levels, so their broad stage does other work and is left out.
   [[nodiscard]] bool has(const std::string& method) const {
     if (!is_broad) return !is_broad_only(method);
     return is_broad_only(method) || method == "tree" || method == "hash" || method == "flat" ||

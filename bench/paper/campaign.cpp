@@ -31,7 +31,7 @@ core::Result<std::vector<PaperRow>> run_campaign(const PaperRequest& request, co
   if (!cells) return cells.error();
   if (core::Status s = campaign::write_manifest(folder, manifest.value()); !s) return s.error();
 
-  // The expected time of each cell that is not finished, and how right the forecast was so far.
+  // The expected time of each cell that is not finished, and how the forecast compares with the time so far.
   std::vector<double> expected_s;
   for (std::size_t k = 0; k < cells.value().size(); ++k) {
     std::error_code ignored;
@@ -51,7 +51,7 @@ core::Result<std::vector<PaperRow>> run_campaign(const PaperRequest& request, co
       done_s += std::exchange(expected_s[k], 0.0);
     }
     const double elapsed_s = std::chrono::duration<double>(Clock::now() - start).count();
-    // The longer this machine's pace is known, the more it weighs.
+    // The longer this machine has worked, the more its own pace weighs in the forecast.
     constexpr double kKnown_s = 10.0;
     const double left_s = (whole_s - done_s) * (elapsed_s + kKnown_s) / (done_s + kKnown_s);
     fmt::print(stderr, "paper: {} of {} cells, {} so far{}\n", done, cells.value().size(), minutes(elapsed_s),

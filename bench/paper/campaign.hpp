@@ -1,4 +1,4 @@
-// A campaign of the paper's experiments from here: planned, done, and read back as rows.
+// Plans a campaign of the paper's experiments, runs it in this process, and reads it back as rows.
 #pragma once
 
 #include <filesystem>
@@ -10,8 +10,8 @@
 
 namespace broadside::bench::paper {
 
-// Plans the request into the folder, does what is missing there, and gives one row per cell of the plan, in order. Says
-// on stderr, scene by scene, how far it is and how long the rest will take. An interrupt is an error of exit code 3.
+// Plans the request into the folder, runs the missing cells there, and gives one row per cell of the plan, in order.
+// After each scene it prints to stderr the progress and the time left. An interrupt is an error of exit code 3.
 core::Result<std::vector<PaperRow>> run_campaign(const PaperRequest& request, const std::filesystem::path& folder);
 
 }  // namespace broadside::bench::paper

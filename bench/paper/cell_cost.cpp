@@ -9,8 +9,8 @@
 namespace broadside::bench::paper {
 namespace {
 
-// What depends on the size of the mesh, in seconds: making the scene once for the plan and once for its cells, loading
-// it into an engine, writing its trace, beginning to judge that, and judging a frame of fifty bodies.
+// Costs that depend on the size of the mesh, in seconds: making the scene once for the plan and once for its cells,
+// loading it into an engine, writing its trace, starting to judge the trace, and judging a frame of fifty bodies.
 struct ModelCost {
   std::string_view model;
   double scene_s;
@@ -26,7 +26,7 @@ constexpr std::array<ModelCost, 4> kModelCosts{{
     {"asian_dragon", 1.6, 0.30, 0.60, 0.80, 0.03},
 }};
 
-// Of a frame, on two cores and on the GPU: for every pair of bodies, and for every body.
+// Costs of a frame, on two cores and on the GPU: for every pair of bodies, and for every body.
 struct MethodCost {
   std::string_view method;
   double pair_s;
@@ -69,7 +69,7 @@ double expected_seconds(const PaperCell& cell, std::uint32_t runs) {
   if (cell.is_timed) loads += 1.0 + runs, timed_frames += static_cast<double>(kWarmUpFrames) + frames * runs;
   if (cell.wants_memory) loads += runs, timed_frames += frames * runs;
   const double judged = frames / cell.every * model.judged_frame_s * cell.count / 50.0;
-  // In the tables five cells share a scene, so each takes a fifth. Elsewhere two do, and the error is small.
+  // In the tables five cells share a scene, so each is charged a fifth. Elsewhere two cells do, and the error is small.
   return 0.2 * model.scene_s + loads * model.load_s + model.trace_s + model.judge_s + judged +
          (frames + timed_frames) * frame_seconds(cell);
 }

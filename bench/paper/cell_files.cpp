@@ -56,7 +56,7 @@ core::Status CellFiles::finish(const std::string& id, const PaperRow& row, const
   if (core::Status s = core::write_cells(part(id) / "cells.json", proof.cells); !s) return s;
   if (core::Status s = core::write_verdicts(part(id) / "verdicts.json", proof.verdicts); !s) return s;
   if (core::Status s = write_paper_rows(part(id) / "row.json", {row}); !s) return s;
-  fs::remove_all(done(id), failed);  // a damaged row
+  fs::remove_all(done(id), failed);  // where a damaged row was
   fs::rename(part(id), done(id), failed);
   if (failed) return core::Error{"cannot rename it: " + failed.message(), part(id).string(), "check the folder"};
   return core::Done{};

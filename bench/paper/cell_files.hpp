@@ -24,15 +24,15 @@ class CellFiles {
  public:
   explicit CellFiles(std::filesystem::path folder) : folder_(std::move(folder)) {}
 
-  // A damaged file counts as absent: the cell is measured again and replaced.
+  // The row of a finished cell. A damaged file counts as absent: the cell is measured again, and the file is replaced.
   [[nodiscard]] std::optional<PaperRow> finished(const std::string& id) const;
   // The row of a cell as its plan names it; an unfinished cell's row says why.
   [[nodiscard]] PaperRow row(const PaperCell& cell) const;
   [[nodiscard]] core::Status finish(const std::string& id, const PaperRow& row, const core::RunRows& proof) const;
-  // Kept for row(), and tried again by the next call.
+  // Keeps a row that says why there is no result, for row(); the next call tries the cell again.
   [[nodiscard]] core::Status give_up(const std::string& id, const PaperRow& row) const;
 
-  // Runs of a cell that is not finished. A run that is missing or damaged is no run.
+  // A finished run of a cell that is not finished. A run that is missing or damaged does not count.
   [[nodiscard]] std::optional<core::Sample> run(const std::string& id, std::uint32_t repetition) const;
   [[nodiscard]] core::Status keep_run(const std::string& id, const core::Sample& sample) const;
 

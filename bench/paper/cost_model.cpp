@@ -12,7 +12,7 @@
 namespace broadside::bench::paper {
 namespace {
 
-constexpr int kResamples = 2000;  // enough that the 2.5 % tail rests on 50 of them
+constexpr int kResamples = 2000;  // enough that 50 of them lie in the 2.5 % tail
 constexpr double kTail = 0.025;
 constexpr std::size_t kTerms = 3;
 
@@ -83,7 +83,7 @@ std::optional<Change> change_between(double count0, double ratio0, double count1
   return Change{std::exp(std::log(count0) + share * std::log(count1 / count0)), high > low};
 }
 
-// Draws from a fixed sequence: the state counts up, and splitmix64 scrambles it.
+// Draws from a fixed sequence: the state counts up, and splitmix64 hashes it.
 class Draws {
  public:
   double resampled_mean(const std::vector<double>& values) {
@@ -129,7 +129,7 @@ void add_crossovers(const CostCurve& a, const CostCurve& b, std::vector<Crossove
     const Common &p = common[k], &q = common[k + 1];
     const auto change = change_between(p.count, mean_of(*p.a) / mean_of(*p.b), q.count, mean_of(*q.a) / mean_of(*q.b));
     if (!change) continue;
-    // The ratio a / b rises through 1, so a was the cheaper one below.
+    // The ratio a / b rises through 1, so a was the cheaper method below this count.
     Crossover crossover{change->is_upward ? a.method : b.method,
                         change->is_upward ? b.method : a.method,
                         change->count,

@@ -16,8 +16,8 @@ struct CostCurve {
   std::vector<std::vector<double>> seconds;  // [count][run]; empty where it was not measured
 };
 
-// t(N) = fixed + linear N + quadratic N^2, each >= 0: the published model O(N + N^2 / 8^L) with what it leaves out.
-// Fitted by least squares of relative errors, because times span decades.
+// t(N) = fixed + linear N + quadratic N^2, each >= 0: the published model O(N + N^2 / 8^L), with the constants that O()
+// leaves out. Fitted by least squares of relative errors, because times span decades.
 struct CostFit {
   double fixed_s = 0.0;
   double linear_s = 0.0;
@@ -29,7 +29,7 @@ struct CostFit {
 
   [[nodiscard]] double at(double count) const { return fixed_s + count * (linear_s + count * quadratic_s); }
   [[nodiscard]] bool is_tested() const { return points > terms; }
-  // Which part of the cost at the largest count is the quadratic term's?
+  // Which part of the cost at the largest count comes from the quadratic term?
   [[nodiscard]] double quadratic_share() const {
     return quadratic_s * largest_count * largest_count / at(largest_count);
   }
@@ -43,7 +43,7 @@ std::optional<CostFit> fit_cost(const CostCurve& curve);
 // count, because the fit is noise there.
 std::optional<double> effective_depth(const CostFit& brute, const CostFit& pruned);
 
-// Where `late` becomes cheaper than `early`, which is the cheaper one below.
+// The count at which `late` becomes cheaper than `early`, which is the cheaper one below it.
 struct Crossover {
   std::string early;
   std::string late;
@@ -54,8 +54,8 @@ struct Crossover {
   double share = 0.0;  // of the resampled curves that cross at all
 };
 
-// All of them, between consecutive counts that both were measured at, by straight lines in log-log. The same input
-// gives the same interval: the draws are fixed.
+// All crossings between consecutive counts at which both methods were measured, by straight lines in log-log. The same
+// input gives the same interval, because the draws are fixed.
 std::vector<Crossover> crossovers(std::span<const CostCurve> curves);
 
 }  // namespace broadside::bench::paper

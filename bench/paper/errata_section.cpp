@@ -22,7 +22,7 @@ std::size_t claim(std::string_view erratum) {
   return 0;
 }
 
-// In how many rows of ours the first method is the fastest of all, by more than the deviations.
+// In how many of our rows each method is the fastest of all, by more than the deviations.
 std::string fastest_here(const RowTable& rows, const std::vector<std::string>& methods) {
   if (rows.is_empty()) return "";
   std::string text = " Here:";
@@ -97,7 +97,8 @@ std::string e12() {
   for (std::size_t r = 0; r < t.rows.size(); ++r) {
     const double change = change_percent(t.number(r, "C_mean"), t.number(r, "flat_mean"));
     const double printed = t.number(r, "printed_change_percent");
-    // Printed to one digit: half a digit of it, plus a little because decimal figures are not exact in binary.
+    // The paper prints one digit, so half a unit of it is allowed, and a little more because decimal figures are not
+    // exact in binary.
     if (std::abs(change - printed) <= 0.05 + 1e-9) continue;
     ++differing;
     text += fmt::format("{} {} {} prints {:.1f} % where its figures give {:.2f} %", text.empty() ? "" : ",",

@@ -24,7 +24,7 @@ double published(std::string_view table_name, const std::string& model, std::uin
   return row ? table.number(*row, column) : kNoValue;
 }
 
-// FPS against the count of one model: ours with bands, the published ones dashed in the same color.
+// FPS against the count for one model: our curves with bands, the published ones dashed in the same color.
 Figure level_figure(const RowTable& rows, const std::string& model, std::string_view table,
                     const std::vector<std::string>& methods) {
   LinePlot plot;

@@ -22,8 +22,8 @@
 namespace broadside::bench::paper {
 namespace {
 
-// METHOD 9 writes statistics every 100 frames. Shorter runs get thirty windows too, so that their curves have
-// points.
+// METHOD 9 writes statistics every 100 frames. Shorter runs are divided into thirty windows too, so that their curves
+// have points.
 std::uint64_t window_frames_of(std::uint64_t frames) {
   return frames >= 1000 ? core::kStatisticsWindow : std::max<std::uint64_t>(1, frames / 30);
 }
@@ -51,10 +51,10 @@ class Spent {
 struct Work {
   const PaperCell* cell = nullptr;
   CellSpec spec;
-  std::uint32_t runs = 0;  // that are timed
+  std::uint32_t runs = 0;  // that are to be timed
   PaperRow row;
   bool is_done = false;
-  bool is_again = false;  // another experiment's name for a cell that comes before it
+  bool is_again = false;  // the same measurement as an earlier cell, under another experiment's name
 };
 
 PaperRun run_of(const core::Sample& sample, std::uint64_t window_frames) {
@@ -139,7 +139,7 @@ class Group {
     return give_up(work, error.line());
   }
 
-  // The stamp that the cell will have.
+  // Computes the stamp that the cell will have.
   core::Status identify(Work& work, const core::Scene& scene) {
     auto settings = core::Settings::parse(work.spec.row->id, work.spec.row->settings, work.spec.settings);
     if (!settings) return settings.error();
@@ -174,7 +174,8 @@ class Group {
 
   core::Status record() {
     if (core::Status s = prepare_folder(plan_.folder); !s) return s;
-    // One by one, so that an engine that cannot load the scene (too little memory, say) does not stop the others.
+    // One engine at a time, so that an engine that cannot load the scene (too little memory, say) does not stop the
+    // others.
     for (Work& work : works_) {
       if (work.is_done) continue;
       const Spent spent(work.row.spent_s);
@@ -245,7 +246,7 @@ class Group {
     return core::Done{};
   }
 
-  // Runs of different cells in turns, so that a machine that drifts drifts for all.
+  // Runs of different cells alternate, so that a drift of the machine affects all cells alike.
   core::Status time() {
     for (std::uint32_t r = 0; r < options_.runs; ++r) {
       for (Work& work : works_) {
@@ -319,7 +320,7 @@ class Group {
     return core::Done{};
   }
 
-  // The rows that every campaign's cell has.
+  // The rows of a cell in the form that every campaign has.
   [[nodiscard]] core::RunRows proof_of(const core::Stamp& stamp) const {
     core::RunRows own;
     for (const core::Cell& cell : proof_.cells)

@@ -21,7 +21,7 @@ core::Result<std::uint64_t> in_use(const CellSpec& spec) {
   return *bytes;
 }
 
-// Steps that many frames, and returns the mean of the bytes in use at the ends of the windows.
+// Runs so many frames, and returns the mean of the bytes in use at the ends of the windows.
 core::Result<double> sampled(const RunPlan& plan, const CellSpec& spec, std::uint64_t frames,
                              std::uint64_t window_frames) {
   auto settings = core::Settings::parse(spec.row->id, spec.row->settings, spec.settings);
@@ -53,7 +53,7 @@ const char* memory_kind(const CellSpec& spec) {
 }
 
 core::Result<double> memory_of_run(const RunPlan& plan, const CellSpec& spec, std::uint64_t window_frames) {
-  // What a first use leaves behind (code on the device, thread pools) does not belong to the engine.
+  // Memory that a first use leaves behind (code on the device, thread pools) does not belong to the engine.
   auto warm = sampled(plan, spec, std::min<std::uint64_t>(plan.frames, 2), 1);
   if (!warm) return warm.error();
   return sampled(plan, spec, plan.frames, window_frames);

@@ -1,4 +1,4 @@
-// What the published memory figures are compared with: bytes that an engine holds, sampled over a run.
+// The bytes that an engine holds, sampled over a run; they are compared with the published memory figures.
 #pragma once
 
 #include "bench/cell/cell_spec.hpp"
@@ -7,8 +7,8 @@
 
 namespace broadside::bench::paper {
 
-// The mean of the bytes in use at the end of every window, in one run of plan.frames steps: device memory for an engine
-// on the GPU, this process's heap otherwise; less what was in use before the engine was made.
+// The mean of the bytes in use at the end of every window, in one run of plan.frames steps, minus the bytes in use
+// before the engine was made. Counts device memory for an engine on the GPU, this process's heap otherwise.
 core::Result<double> memory_of_run(const RunPlan& plan, const CellSpec& spec, std::uint64_t window_frames);
 
 // "device memory", "heap of the process".

@@ -1,4 +1,4 @@
-// Measured cells as the tables need them: means with their deviations, and which of two is larger.
+// Measured cells in the form that the tables need: means with their deviations, and which of two is larger.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +14,7 @@
 
 namespace broadside::bench::paper {
 
-// Where there is no number.
+// Stands for a missing number.
 inline constexpr double kNoValue = std::numeric_limits<double>::quiet_NaN();
 
 // A mean over runs. Usable only when it was measured and admitted.
@@ -47,7 +47,8 @@ Order is_larger(const Measured& a, const Measured& b);
 Order both(Order a, Order b);
 std::string_view order_word(Order order);
 
-// "A < C < B", ascending, "~" between two that cannot be told apart. Names in the order given; absent ones left out.
+// "A < C < B", ascending, with "~" between two that cannot be told apart. Names are in the given order; absent ones are
+// left out.
 std::string ascending(std::vector<std::pair<std::string, Measured>> values);
 
 // The rows of one experiment.
@@ -55,7 +56,7 @@ class RowTable {
  public:
   RowTable(std::span<const PaperRow> rows, std::string_view experiment);
 
-  // Models and counts, in order of first appearance.
+  // Pairs of model and count, in order of first appearance.
   [[nodiscard]] std::vector<std::pair<std::string, std::uint32_t>> places() const;
   [[nodiscard]] const PaperRow* find(const std::string& model, std::uint32_t count, std::string_view method) const;
   [[nodiscard]] const std::vector<const PaperRow*>& rows() const { return rows_; }
@@ -65,7 +66,7 @@ class RowTable {
   std::vector<const PaperRow*> rows_;
 };
 
-// Sentences about what is absent or struck out: each reason once, with the cells that it applies to.
+// Sentences about cells that are absent or struck out: each reason once, with the cells that it applies to.
 std::vector<std::string> reasons(const RowTable& table);
 
 }  // namespace broadside::bench::paper

@@ -8,8 +8,8 @@
 namespace broadside::bench::paper {
 namespace {
 
-// The few functions of the driver's library that this takes. It is opened at run time, because a program built without
-// CUDA, or a machine without a driver, has none to link.
+// The functions of the driver's library that are needed here. The library is opened at run time, because a program
+// built without CUDA, or a machine without a driver, has none to link to.
 struct Driver {
   using Init = int (*)(unsigned);
   using Retain = int (*)(void**, int);

@@ -10,8 +10,8 @@ namespace broadside::bench::paper {
 // Bytes of this process's heap that are allocated and not freed (glibc's mallinfo2).
 std::uint64_t heap_bytes();
 
-// Bytes of the GPU's memory in use, by everything that runs on it, as its driver counts them; nothing without a driver.
-// Makes this process's CUDA context if there is none, so that a later difference does not count it.
+// Bytes of the GPU's memory in use by all programs, as its driver counts them; nothing without a driver. Makes this
+// process's CUDA context if there is none, so that a later difference does not contain it.
 std::optional<std::uint64_t> device_bytes();
 
 }  // namespace broadside::bench::paper

@@ -10,7 +10,7 @@
 namespace broadside::bench::paper {
 namespace {
 
-// Steps: few, because every frame is written; and enough for bodies to fall and meet.
+// Few steps, because every frame is written, and enough steps for bodies to fall and meet.
 constexpr std::uint64_t kSteps = 20;
 
 }  // namespace

@@ -1,4 +1,4 @@
-// The proof that an engine moves bodies as forces do, where its trace has no two steps in a row.
+// Proves that an engine moves bodies as forces do, for engines whose trace has no two consecutive steps.
 #pragma once
 
 #include <vector>
@@ -10,9 +10,9 @@
 
 namespace broadside::bench::paper {
 
-// Records the first steps of the plan's scene with this engine, each of them, into a folder below the plan's, and
-// judges them by the laws that tie motion to forces. Verdicts of laws that met something; none when the run did not
-// come about or has another stamp.
+// Records every one of the first steps of the plan's scene with this engine, in a folder below the plan's, and judges
+// them by the laws that tie motion to forces. Returns the verdicts of laws that had something to judge; none when the
+// run failed or has another stamp.
 core::Result<std::vector<core::Verdict>> verdicts_of_first_steps(const RunPlan& plan, const CellSpec& spec,
                                                                  const core::Stamp& stamp);
 

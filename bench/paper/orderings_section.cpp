@@ -47,7 +47,7 @@ Measured megabytes(const PaperRow* row) {
   return measured(row, row == nullptr ? std::vector<double>{} : row->memory_bytes);
 }
 
-// One statement about an order: as published, and in one place of our results.
+// One statement about an order: as it was published, and as it is in one place of our results.
 struct Statement {
   std::string words;
   std::string_view experiment;

@@ -26,7 +26,7 @@ class OpenPaperJob : public campaign::OpenJob {
   OpenPaperJob(const PaperRequest& request, std::vector<PaperCell> cells, std::filesystem::path folder)
       : request_(request), cells_(std::move(cells)), folder_(std::move(folder)) {}
 
-  // Cheap cells first: after an interrupt the report has as many results as possible.
+  // Cheap cells first, so that after an interrupt the report has as many results as possible.
   [[nodiscard]] double rank_of(std::size_t first, std::size_t count) const override {
     return paper::rank_of(group(first, count), request_.plan.runs);
   }
@@ -57,7 +57,7 @@ class OpenPaperJob : public campaign::OpenJob {
   std::filesystem::path folder_;
 };
 
-// A scene that cannot be made here has no digest: its name takes that place, and its cells will say why.
+// A scene that cannot be made here has no digest. Its name is hashed instead, and its cells will say why.
 std::uint64_t digest_of_scene(const PaperCell& cell, bool allow_stand_in) {
   const auto scene = make_paper_scene(cell, allow_stand_in);
   return scene ? core::scene_digest(scene.value()) : campaign::hashed(cell.scene);
@@ -106,7 +106,7 @@ class PaperJob : public campaign::Job {
   PaperRequest request_;
 };
 
-// 0 when it is no count of bodies.
+// Returns 0 when the text is not a count of bodies.
 std::uint32_t count_of(const std::string& text) {
   std::uint32_t count = 0;
   const auto [end, bad] = std::from_chars(text.data(), text.data() + text.size(), count);

@@ -30,7 +30,7 @@ campaign::JobPointer paper_job(const PaperRequest& request);
 core::Result<std::vector<PaperCell>> planned_cells(const PaperRequest& request,
                                                    std::span<const campaign::ManifestCell> cells);
 
-// The rows of a campaign's cells, whatever machine did them; a cell without a result is a row that says why.
+// The rows of a campaign's cells, from any machine; a cell without a result is a row that says why.
 std::vector<PaperRow> rows_of(std::span<const PaperCell> cells, const std::filesystem::path& folder);
 
 }  // namespace broadside::bench::paper

@@ -11,7 +11,7 @@
 namespace broadside::bench::paper {
 namespace {
 
-// Statistics are of every tenth frame: ten of each window of METHOD 9.
+// Statistics are computed from every tenth frame: ten frames in each window of METHOD 9.
 constexpr std::uint32_t kRecordEvery = 10;
 constexpr std::uint32_t kStackCount = 50;  // Table A1, memory, Figures 4 and A2
 
@@ -53,14 +53,14 @@ void add_to(std::vector<PaperCell>& cells, PaperCell c, std::string_view experim
     return;
   }
   c.experiments.emplace_back(experiment);
-  // Behind the cells of its scene, so that they are measured in turns.
+  // Inserted after the last cell of the same scene, so that their runs can take turns.
   auto place = cells.end();
   for (auto it = cells.begin(); it != cells.end(); ++it)
     if (it->scene == c.scene && it->beta == c.beta && it->delta_m == c.delta_m) place = it + 1;
   cells.insert(place, std::move(c));
 }
 
-// Rows of a published table, or the given counts of each of its models.
+// Visits the rows of a published table, or the given counts of each of its models.
 template <typename Visit>
 void for_rows(std::string_view table_name, const PlanOptions& options, Visit visit) {
   const datasets::PublishedTable& table = datasets::published_table(table_name);
@@ -134,7 +134,7 @@ void add_figure4(const PlanOptions& options, const Device& device, std::vector<P
   });
 }
 
-// The pictures need meshes and no cell.
+// The pictures need meshes and no cells.
 void add_figure_a1(const PlanOptions&, const Device&, std::vector<PaperCell>&) {}
 
 void add_figure_a2(const PlanOptions& options, const Device& device, std::vector<PaperCell>& cells) {

@@ -1,4 +1,4 @@
-// The request behind a campaign of the paper's experiments: its cells follow from this, in the same order every time.
+// The request for a campaign of the paper's experiments. Its cells follow from it, in the same order every time.
 #pragma once
 
 #include <string>
@@ -14,12 +14,12 @@ struct PaperRequest {
   std::vector<std::string> experiments;
   PlanOptions plan;
   Device device;
-  std::string machine;  // cells of this machine alone are taken over; empty = of any, as on a cluster
+  std::string machine;  // only cells of this machine are taken over; empty = of any, as on a cluster
   bool allow_stand_in = false;
   bool keeps_traces = false;
 };
 
-// As JSON for a manifest, and back. Damaged text is an error that says what is missing.
+// Writes the request as JSON for a manifest, and reads it back. Damaged text is an error that says what is missing.
 std::string text_of(const PaperRequest& request);
 core::Result<PaperRequest> request_from(std::string_view text);
 

@@ -1,4 +1,4 @@
-// What one cell of the paper's experiments gave: the rows that tables, plots and files are made from.
+// The result of one cell of the paper's experiments; tables, plots and files are made from these rows.
 #pragma once
 
 #include <cstdint>
@@ -22,7 +22,7 @@ struct PaperRun {
 };
 
 struct PaperRow {
-  std::vector<std::string> experiments;  // that show this cell: "table5", "table6"
+  std::vector<std::string> experiments;  // that contain this cell: "table5", "table6"
   std::string model;                     // "bunny"
   std::uint32_t count = 0;               // bodies
   std::string method;                    // as the tables call it: "A", "flat", "hash", "octree"
@@ -34,11 +34,11 @@ struct PaperRow {
 
   std::string absence;       // why there is no result: "not measured: no device"; empty when there is one
   std::uint64_t frames = 0;  // of each run
-  std::uint64_t judged = 0;  // of them, recorded and judged
+  std::uint64_t judged = 0;  // of these, recorded and judged
   std::uint64_t passed = 0;  // verdicts on the recording
   std::uint64_t failed = 0;
   bool is_admitted = false;  // of the times; without times, whether no verdict failed and one passed
-  std::string refusal;       // why not
+  std::string refusal;       // why it is not admitted
   std::string caveat;        // inconclusive verdicts, by name
   std::uint64_t final_digest = 0;
 
@@ -47,14 +47,14 @@ struct PaperRow {
   std::vector<core::PenetrationStatistics> penetration;  // of the judged frames
   std::map<std::string, double> pairs;                   // mean per judged frame: "candidates", "confirmed", "contacts"
   std::vector<double> memory_bytes;                      // of each run: the mean over its windows
-  std::string memory_kind;                               // what was counted
+  std::string memory_kind;                               // which memory was counted
   double spent_s = 0.0;  // wall time for recording and timing it, loading included; 0 = not known
 
   [[nodiscard]] bool has_times() const { return absence.empty() && !runs.empty(); }
-  // One value per run, in frames per second: of all frames, of one window, of a part of the run.
+  // One value per run, in frames per second: of all frames; likewise below of one window, of a part of the run.
   [[nodiscard]] std::vector<double> fps() const;
   [[nodiscard]] std::vector<double> window_fps(std::size_t window) const;
-  // Windows that end in the first half of the run (early) or the others: 1500 and 1500 of 3000 frames.
+  // Windows that end in the first half of the run (early) or in the second: 1500 and 1500 of 3000 frames.
   [[nodiscard]] std::vector<double> half_fps(bool is_early) const;
   [[nodiscard]] std::vector<double> stage_seconds(const std::string& stage) const;
   [[nodiscard]] std::size_t window_count() const;

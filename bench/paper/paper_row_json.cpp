@@ -19,7 +19,7 @@ using OrderedJson = nlohmann::ordered_json;
 constexpr int kRowVersion = 1;
 constexpr const char* kRowFormat = "broadside-paper";
 
-// JSON has no number that is not finite; null stands for it.
+// JSON has no infinity and no NaN; null stands for them.
 OrderedJson number(double value) {
   return std::isfinite(value) ? OrderedJson(value) : OrderedJson(nullptr);
 }
@@ -27,7 +27,7 @@ double number_of(const OrderedJson& json) {
   return json.is_null() ? std::numeric_limits<double>::quiet_NaN() : json.get<double>();
 }
 
-// Times keep eight digits, more than any clock here resolves, so files stay small.
+// Times keep eight digits: more than any clock here resolves, and few enough that files stay small.
 OrderedJson time(double seconds) {
   if (!std::isfinite(seconds)) return nullptr;
   std::array<char, 32> text;

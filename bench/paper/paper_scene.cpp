@@ -11,7 +11,7 @@
 namespace broadside::bench::paper {
 namespace {
 
-// Every body keeps a sliver of a gap, so that float rounding does not start the run in contact. In meters.
+// Every body starts with this small gap, in meters, so that float rounding does not start the run in contact.
 constexpr double kStartGap_m = 1e-4;
 
 double lowest_m(const core::Scene& scene) {
@@ -29,7 +29,7 @@ void fly_to_floor(core::Scene& scene) {
   const double g = -static_cast<double>(scene.gravity_m_s2.y);
   const double drop_m = lowest_m(scene) - static_cast<double>(scene.domain.min.y) - kStartGap_m;
   if (!(g > 0.0) || !(drop_m > 0.0) || !std::isfinite(drop_m)) return;
-  // All start at rest, so all fall alike and keep their distances.
+  // All bodies start at rest, so all fall alike and keep their distances.
   const auto down_m = static_cast<float>(drop_m);
   const auto speed_m_s = static_cast<float>(std::sqrt(2.0 * g * drop_m));
   for (core::Body& body : scene.bodies) {

@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::string_view kOctreePictures = "figureA1";
 
-// Figure A1 has no rows: it appears when the folder holds its pictures, and is drawn again.
+// Figure A1 has no rows: it is drawn again when the folder holds its pictures.
 bool has_octree_pictures(const std::filesystem::path& folder) {
   std::error_code failed;
   for (const auto& entry : std::filesystem::directory_iterator(folder, failed))

@@ -10,8 +10,8 @@
 
 namespace broadside::bench::paper {
 
-// From rows that 'paper' or the merge of a campaign wrote, a rows.json or a folder that holds one, and nothing else but
-// meshes; `id` is the part's. Empty where there is none; a damaged one is an error.
+// Made from the rows that 'paper' or the merge of a campaign wrote: a rows.json, or a folder that holds one. Figure A1
+// needs the meshes too. `id` is the id of the part. Empty where there are no rows; damaged ones are an error.
 core::Result<std::optional<reports::GuestPart>> report_part(const std::filesystem::path& rows, const std::string& id);
 
 }  // namespace broadside::bench::paper

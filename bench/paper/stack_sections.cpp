@@ -15,7 +15,7 @@ using datasets::published_table;
 using datasets::PublishedTable;
 using reports::plots::Placement;
 
-// Figure 5 of one model: each method's FPS window by window.
+// Figure 5 for one model: the FPS of each method, window by window.
 Figure fps_over_frames(const RowTable& rows, const std::string& model, std::uint32_t count) {
   reports::plots::LinePlot plot;
   plot.text = {model + " " + std::to_string(count) + ": frames per second over the run", "", "frame",

@@ -11,21 +11,21 @@
 
 namespace broadside::bench {
 
-// The cell's engine, whose broad_phase is there. Errors: it cannot run here, wrong settings, it offers no broad phase.
+// Makes the cell's engine, which then has a broad_phase. Errors: it cannot run here, wrong settings, no broad phase.
 core::Result<core::Engine> make_broad_phase_of(const CellSpec& cell);
 
-// Other people's engines run in a child process, and every engine where limits are asked for.
+// Whether the cell runs in a child process: other people's engines always, every engine where limits were asked for.
 bool runs_apart(const CellSpec& cell, const ChildLimits& limits);
 
 struct ChildAnswer {
-  std::string output;   // its JSON; empty when it gave none
+  std::string output;   // the child's JSON; empty when it gave none
   std::string absent;   // why it gave none; empty when it did
-  std::string verdict;  // then: "abort", "time-out", ... (class_of in bench/process/child.hpp)
-  std::string repeat;   // and the command that repeats it
+  std::string verdict;  // then how it failed: "abort", "time-out", ... (class_of in bench/process/child.hpp)
+  std::string repeat;   // the command that repeats the failure
 };
 
-// Runs `broadside ARGUMENTS --engine THE_CELL'S --set ... --json --in-process`. Errors: interrupted, and what the child
-// calls bad input.
+// Runs `broadside ARGUMENTS --engine THE_CELL'S --set ... --json --in-process`. Errors: interrupted, and bad input that
+// the child reports.
 core::Result<ChildAnswer> ask_child(std::vector<std::string> arguments, const CellSpec& cell,
                                     const ChildLimits& limits);
 

@@ -79,7 +79,7 @@ class StderrTail {
   }
   void pass_no_more_on() { passes_on_ = false; }
   [[nodiscard]] std::string last_line() const {
-    // Without the codes that clear it.
+    // The terminal code that clears the line is cut off.
     const std::string& line = line_.empty() ? last_ : line_;
     constexpr std::string_view kClear = "\033[K";
     return line.starts_with(kClear) ? line.substr(kClear.size()) : line;
@@ -96,7 +96,8 @@ struct Pipe {
   int to = -1;
 
   bool open() {
-    // A child of another thread must not keep this pipe open. dup2 gives the child's own streams without that flag.
+    // Close-on-exec: a child that another thread starts must not keep this pipe open. dup2 gives this child its own
+    // streams without that flag.
     std::array<int, 2> ends{};
     if (pipe2(ends.data(), O_CLOEXEC) != 0) return false;
     from = ends[0];
@@ -118,7 +119,7 @@ bool drain(int from, Take&& take) {
   return got > 0 || (got < 0 && errno == EINTR);
 }
 
-// An interrupted child has ended itself by now, unless it blocks signals.
+// How long an interrupted child may go on. By then it has ended itself, unless it blocks signals.
 constexpr double kAfterInterrupt_s = 0.8;
 
 // Reads both pipes until the child closes them, then reaps it; returns its status.
@@ -162,7 +163,7 @@ void name_ending(ChildEnding& ending, int status, double time_limit_s) {
   if (WIFEXITED(status)) ending.exit_code = WEXITSTATUS(status);
   if (WIFSIGNALED(status)) ending.signal = WTERMSIG(status);
   ending.is_good = !ending.timed_out && ending.exit_code == 0;
-  // A crash of the engine is not told from the end that it was asked for.
+  // After an interrupt, a crash of the engine cannot be distinguished from the end that was asked for.
   ending.is_interrupted = !ending.is_good && is_interrupted();
   if (ending.is_interrupted) {
     ending.words = "interrupted";
@@ -191,7 +192,7 @@ core::Cell ended_badly(const CellRequest& request, const ChildEnding& ending, co
                                      : core::CellState::kCrashed;
   cell.reason = ending.words;
   cell.stamp = stamp_of_request(request);
-  // The driver's trace is the input of an engine that does not simulate. Together with the arguments it repeats the
+  // The input of an engine that does not simulate is the driver's trace beside it. With the arguments it repeats the
   // failure, in a process that may crash.
   cell.notes["repeat"] = command_line(args);
   cell.notes["verdict on its process"] = std::string(class_of(ending));
@@ -201,9 +202,9 @@ core::Cell ended_badly(const CellRequest& request, const ChildEnding& ending, co
   return cell;
 }
 
-// An engine that refuses a scene before its first step says so and ends with 3: "broadside: SCENE: unsupported: WHAT;
-// ADVICE", or that its bodies only translate. The child's own words then are a cell's reason, and nothing has crashed.
-// Empty for other ends.
+// The reason of a cell whose engine refused the scene before its first step, in the child's own words: the child prints
+// "broadside: SCENE: unsupported: WHAT; ADVICE", or that the engine's bodies only translate, and ends with 3. Nothing
+// has crashed then. Empty for other ends.
 std::string unsupported_words(const ChildEnding& ending) {
   if (ending.exit_code != static_cast<int>(core::Exit::kMissing) || ending.is_interrupted) return {};
   constexpr std::string_view kName = "broadside: ";
@@ -270,7 +271,7 @@ std::string_view class_of(const ChildEnding& ending) {
   if (ending.is_interrupted) return "interrupted";
   if (ending.timed_out) return "time-out";
   if (ending.signal != 0) return ending.signal == SIGABRT ? "abort" : "crash";
-  // vendor_call's text for std::bad_alloc, and the runtime's text for one that was not caught.
+  // The text of vendor_call for std::bad_alloc, or the runtime's text for one that was not caught.
   const bool has_no_memory = ending.last_line.find("out of memory") != std::string::npos ||
                              ending.last_line.find("bad_alloc") != std::string::npos;
   return has_no_memory ? "out of memory" : "exception";
@@ -284,7 +285,7 @@ core::Result<ChildEnding> run_self(const std::vector<std::string>& arguments, co
     return no_process("no pipe");
   }
   const bool passes_errors_on = keeps != Keeps::kOutputAndErrors;
-  // The child's progress line passes through here to this terminal.
+  // The child's progress line is shown on this terminal, so the child counts as live.
   if (is_live() && passes_errors_on) setenv(kLiveVariable, "1", 1);  // NOLINT(concurrency-mt-unsafe)
   std::string name = "broadside";
   std::vector<std::string> owned = arguments;
@@ -295,9 +296,9 @@ core::Result<ChildEnding> run_self(const std::vector<std::string>& arguments, co
   const pid_t parent = getpid();
   const pid_t child = fork();
   if (child == 0) {
-    // Only async-signal-safe calls here, because other threads of the parent may hold locks. When the parent dies the
-    // child is ended too, also when the parent died before this line: otherwise it would go on writing where a later
-    // try begins.
+    // Between fork and exec only async-signal-safe calls are allowed, because other threads of the parent may hold
+    // locks. die_with ends the child when the parent dies, even if it died before this line: otherwise the child would
+    // go on writing where a later try begins.
     die_with(parent);
     dup2(err.to, STDERR_FILENO);
     if (out.to >= 0) dup2(out.to, STDOUT_FILENO);

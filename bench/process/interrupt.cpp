@@ -11,12 +11,12 @@
 namespace broadside::bench {
 namespace {
 
-// Work in one long call never asks for the flag: it is ended with one line and exit code 3. Work that has asked gets
-// time to write what it recorded. Nothing is left half under its final name, which files get by a rename when they are
-// whole.
+// Time from the signal to the end of the program. Work in one long call never reads the flag: it is ended with one line
+// and exit code 3. Work that has read the flag gets time to write what it recorded. No file is left half-written under
+// its final name, because files are renamed when they are complete.
 constexpr suseconds_t kUnheard_us = 600'000;
 constexpr time_t kHeard_s = 10;
-// A terminal sends Ctrl-C to a child too, and its parent passes it on: within this time they are one.
+// On Ctrl-C the terminal signals a child too, and its parent passes the signal on: within this time they count as one.
 constexpr double kSameSignal_s = 0.4;
 
 volatile std::sig_atomic_t interrupted = 0;
@@ -50,7 +50,7 @@ void on_signal(int signal) {
 
 void on_time_out(int) {
   constexpr char kLine[] = "broadside: interrupted\n";
-  // Nothing can be done about a line that cannot be written.
+  // If the line cannot be written, there is nothing else to do.
   if (write(STDERR_FILENO, kLine, sizeof kLine - 1) < 0) _exit(static_cast<int>(core::Exit::kMissing));
   _exit(static_cast<int>(core::Exit::kMissing));
 }

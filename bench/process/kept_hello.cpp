@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 
 constexpr std::string_view kInterpreter = "node";
 
-// The program that a command of this name starts; empty when PATH has none.
+// The path of the program that a command of this name starts; empty when PATH has none.
 fs::path on_path(std::string_view name) {
   // Engines are named before any thread begins, so nothing writes the environment meanwhile.
   const char* given = std::getenv("PATH");  // NOLINT(concurrency-mt-unsafe)
@@ -33,7 +33,8 @@ fs::path on_path(std::string_view name) {
   return {};
 }
 
-// Which file it is, without reading its hundred megabytes: a package manager that replaces it sets another time.
+// Identifies the file by size and time, because reading its hundred megabytes would be slow: a package manager that
+// replaces it sets another time.
 std::string identity_of(const fs::path& file) {
   std::error_code failed;
   const std::uintmax_t size = fs::file_size(file, failed);
@@ -43,7 +44,7 @@ std::string identity_of(const fs::path& file) {
 }
 
 std::string stamp_of_hello(const fs::path& program_folder) {
-  // npm writes here what it installed, with the sum of each package.
+  // In this file npm lists what it installed, with the sum of each package.
   const auto package = core::read_whole_file(program_folder / "node_modules" / ".package-lock.json");
   const std::string interpreter = identity_of(on_path(kInterpreter));
   if (!package || interpreter.empty()) return {};

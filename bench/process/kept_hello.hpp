@@ -1,5 +1,5 @@
-// What an installed engine said of itself, kept beside it: asking starts Node and loads its package, a quarter of a
-// second each.
+// The description of an installed engine, kept beside it, because asking for it starts Node and loads the package, a
+// quarter of a second each.
 #pragma once
 
 #include <filesystem>
@@ -8,11 +8,11 @@
 
 namespace broadside::bench {
 
-// The stamp names what the answer depends on: this program's build, the interpreter, and the package that npm
-// installed. An answer of another stamp does not count; whether it can be read is the caller's to see.
+// The stamp names everything that the answer depends on: this program's build, the interpreter, and the package that
+// npm installed. An answer with another stamp is ignored; the caller must check that an answer can be parsed.
 class KeptHello {
  public:
-  // Of the engine whose program lies in this folder, in which npm installed its package.
+  // For the engine whose program lies in this folder, where npm also installed its package.
   explicit KeptHello(const std::filesystem::path& program_folder);
 
   [[nodiscard]] std::optional<std::string> answer() const;
@@ -21,7 +21,7 @@ class KeptHello {
 
  private:
   std::filesystem::path file_;
-  std::string stamp_;  // empty where something that belongs to it cannot be read: then nothing is kept
+  std::string stamp_;  // empty where a part of it cannot be read: then nothing is kept
 };
 
 }  // namespace broadside::bench

@@ -5,9 +5,9 @@
 
 namespace broadside::bench {
 
-// Limits the address space of this process to memory_mib (MiB) beyond what it has now, 0 = no limit; allocations fail
-// beyond it. The process calls it on itself after exec, because its parent's use of memory says nothing about its own.
-// Turns core files off too. Async-signal-safe.
+// Limits the address space of this process to memory_mib (MiB) beyond what it has now, 0 = no limit; allocations beyond
+// that fail. The process calls it on itself after exec, because its parent's use of memory says nothing about its own.
+// Also turns core files off. Async-signal-safe.
 void limit_this_process(std::uint64_t memory_mib);
 
 // No core files: a library that aborts twenty thousand times would fill the disk. Async-signal-safe, for use between

@@ -43,7 +43,7 @@ core::Result<RunningProgram> RunningProgram::start(const std::string& program,
   posix_spawn_file_actions_addopen(&files, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
   posix_spawn_file_actions_addopen(&files, STDOUT_FILENO, output.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644);
   posix_spawn_file_actions_adddup2(&files, STDOUT_FILENO, STDERR_FILENO);
-  // dup2 onto itself clears close-on-exec, in the new process alone.
+  // dup2 of a descriptor onto itself clears its close-on-exec flag, in the new process alone.
   if (inherited >= 0) posix_spawn_file_actions_adddup2(&files, inherited, inherited);
   pid_t child = 0;
   const int failed = posix_spawnp(&child, program.c_str(), &files, nullptr, argv.data(), environ);

@@ -59,7 +59,8 @@ Progress::~Progress() {
 
 void Progress::at(std::uint64_t done) {
   const auto now = Clock::now();
-  // A terminal is refreshed ten times a second; a log gets a line a quarter of a minute, so that short work is silent.
+  // A terminal is refreshed ten times a second. A log gets a line every quarter of a minute, so short work prints
+  // nothing.
   const double wait_s = is_terminal_ ? 0.1 : 15.0;
   if (std::chrono::duration<double>(now - last_).count() < wait_s || done == 0) return;
   last_ = now;
@@ -68,7 +69,7 @@ void Progress::at(std::uint64_t done) {
   const std::string text =
       fmt::format("{}: {} of {} ({:.0f} %), about {} left", what_, done, total_,
                   100.0 * static_cast<double>(done) / static_cast<double>(total_), left_text(left));
-  // A line that the terminal wraps cannot be rewritten.
+  // The line is cut to the terminal's width, because a wrapped line cannot be rewritten.
   fmt::print(stderr, "{}{}{}", is_terminal_ ? "\r" : "",
              is_terminal_ ? reports::clipped(text, reports::kTerminalColumns - 1) : text,
              is_terminal_ ? "\033[K" : "\n");

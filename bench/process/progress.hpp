@@ -34,11 +34,11 @@ inline constexpr const char* kLiveVariable = "BROADSIDE_LIVE_PROGRESS";
 
 // Is stderr a terminal, or shown live by the parent?
 bool is_live();
-// Colors: on a terminal that knows them, unless NO_COLOR is set to anything but nothing (no-color.org).
+// Whether to print in color: on a terminal that has colors, unless NO_COLOR is set to a non-empty value (no-color.org).
 bool has_color();
 
-// On a terminal, a line that stays for an engine that is done: "[2 of 5] bullet-dbvt: recorded, 3000 frames in 4.2 s".
-// Elsewhere nothing, because the table at the end has it.
+// On a terminal, prints a line for an engine that is done, which stays: "[2 of 5] bullet-dbvt: recorded, 3000 frames in
+// 4.2 s". Elsewhere prints nothing, because the table at the end says the same.
 void say_done(const core::Cell& cell, std::size_t number, std::size_t of);
 
 }  // namespace broadside::bench

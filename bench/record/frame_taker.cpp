@@ -36,7 +36,7 @@ Taken FrameTaker::finish() {
   return std::optional(std::move(frame));
 }
 
-// An engine that went on from a trace counts its steps from there and gives once-per-run data again.
+// An engine that resumed from a trace counts its steps from there, and gives once-per-run data again.
 void FrameTaker::place(core::FrameRecord& frame) const {
   if (steps_before_ == 0) return;
   frame.shape_of_body.clear();

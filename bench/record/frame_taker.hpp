@@ -1,4 +1,4 @@
-// Takes frames off a running simulation: at once, or one frame late where the engine copies while it steps on.
+// Takes frames from a running simulation: at once, or one frame late where the engine copies a frame while it steps on.
 #pragma once
 
 #include <cstdint>
@@ -12,12 +12,13 @@ namespace broadside::bench {
 
 class FrameTaker {
  public:
-  // steps_before: how many steps of the run the engine did not make itself, because it went on from a trace.
+  // steps_before: the steps of the run that the engine did not make itself, because it resumed from a trace.
   FrameTaker(core::Dynamics& dynamics, core::RecordLevel level, std::uint64_t steps_before, float dt_s);
 
-  // Called after a step whose frame is wanted. Returns a frame that is ready: of this step or of the wanted one before.
+  // Called after a step whose frame is wanted. Returns a frame that is ready: that of this step, or of the wanted step
+  // before it.
   core::Result<std::optional<core::FrameRecord>> take();
-  // The last wanted frame, if take() did not give it yet.
+  // The last wanted frame, if take() did not return it yet.
   core::Result<std::optional<core::FrameRecord>> rest();
 
  private:

@@ -1,4 +1,4 @@
-// Which traces the verdicts of a folder are of, so that a later call judges only what changed.
+// Remembers which traces the verdicts of a folder belong to, so that a later call judges only what changed.
 #pragma once
 
 #include <filesystem>
@@ -17,10 +17,10 @@ class JudgedTraces {
  public:
   explicit JudgedTraces(std::filesystem::path folder) : folder_(std::move(folder)) {}
 
-  // Removes rows that are not those that were kept: damaged, of another build, or of a call that was cut off before it
-  // kept them.
+  // Removes rows that differ from those that were kept: rows that are damaged, of another build, or of a call that was
+  // interrupted before it kept them.
   [[nodiscard]] core::Status drop_changed_rows() const;
-  // Whether the folder's verdicts are of these traces as they are now, and by this program.
+  // Whether the folder's verdicts were made from these traces as they are now, and by this program.
   [[nodiscard]] core::Result<bool> are_of(const std::vector<core::Cell>& cells) const;
   // To be called when all rows are written.
   [[nodiscard]] core::Status keep(const std::vector<core::Cell>& cells) const;

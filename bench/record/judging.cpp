@@ -22,7 +22,7 @@ bool needs_baseline(const std::string& validator) {
   });
 }
 
-// In the order of core::kEnergyColumns.
+// Values are in the order of core::kEnergyColumns.
 void add(const validation::EnergyRow& row, core::EnergySeries& series) {
   const double values[] = {row.kinetic,  row.potential,  row.integration, row.normal,
                            row.friction, row.correction, row.clip};

@@ -1,4 +1,4 @@
-// Traces in, verdicts out: the part that check and demo share.
+// Judges traces; check and demo share this part.
 #pragma once
 
 #include <filesystem>

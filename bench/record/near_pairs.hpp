@@ -23,7 +23,7 @@ class NearPairs {
   std::vector<std::uint8_t> is_static_;
 };
 
-// Sum modulo 2^64 over the measured pairs of a hash of distance and flag.
+// The sum modulo 2^64 of hashes of distance and flag over the measured pairs.
 std::uint64_t separation_digest(const core::FrameRecord& frame);
 
 }  // namespace broadside::bench

@@ -24,7 +24,7 @@ constexpr std::size_t kMostBodies = 20'000;     // 120 kB a frame
 constexpr std::size_t kMostTriangles = 12'000;  // of one mesh; larger ones are shown as their level-2 boxes
 constexpr std::uint64_t kAround = 8;            // recorded frames before and after a place
 constexpr std::size_t kMostMarks = 12;
-constexpr std::uint64_t kSpread = 240;  // frames over the whole run, where they fit
+constexpr std::uint64_t kSpread = 240;  // frames spread over the whole run, where they fit
 
 core::Vec3 up_of(const core::Scene& scene) {
   const float g = core::length(scene.gravity_m_s2);
@@ -51,8 +51,8 @@ reports::PlaybackShape shape_of(const core::Shape& shape, const core::Mesh& mesh
   return out;
 }
 
-// The middle of the overlap of the two boxes, where they were when the contact was applied; of a box alone against a
-// face, the middle of its side.
+// The middle of the overlap of the two boxes at the moment the contact was applied; for a contact with a face of the
+// domain, the middle of the box's side.
 core::Vec3 point_of(const core::Contact& c, const std::vector<core::Box>& local) {
   core::Box box = core::translated(local[c.a], c.pre_a.x);
   core::Vec3 point = 0.5F * (box.min + box.max);
@@ -67,7 +67,7 @@ core::Vec3 point_of(const core::Contact& c, const std::vector<core::Box>& local)
   return point;
 }
 
-// now after the inverse of first, both unit quaternions.
+// The rotation from `first` to `now`: now times the inverse of first, both unit quaternions.
 core::Quat turn_from(core::Quat first, core::Quat now) {
   const core::Quat f{first.w, -first.x, -first.y, -first.z};
   return {now.w * f.w - now.x * f.x - now.y * f.y - now.z * f.z, now.w * f.x + now.x * f.w + now.y * f.z - now.z * f.y,
@@ -92,7 +92,7 @@ class Taker {
     for (const std::uint32_t s : playback_.shape_of_body) local_.push_back(playback_.shapes[s].levels[0][0]);
   }
 
-  // Nothing when the trace turns out to be damaged.
+  // Empty when the trace turns out to be damaged.
   Playback take(std::uint64_t most_bytes) {
     const std::uint64_t fixed_bytes = reports::playback_bytes(playback_);
     const std::vector<std::uint64_t> indices = wanted(most_bytes > fixed_bytes ? most_bytes - fixed_bytes : 0);
@@ -132,7 +132,7 @@ class Taker {
     return frame;
   }
 
-  // Indices of the frames to show: those around each mark first, then as many others as the bytes allow.
+  // Indices of the frames to show: first those around each mark, then as many others as the bytes allow.
   std::vector<std::uint64_t> wanted(std::uint64_t bytes) {
     const std::vector<std::uint64_t>& steps = trace_.steps();
     const std::uint64_t count = steps.size();
@@ -187,7 +187,7 @@ struct Choice {
   std::vector<reports::PlaybackMark> marks;
 };
 
-// Runs that did not pass, then one run per scene to look at; or every run, in the order of the rows.
+// The runs that did not pass, and then one run per scene to look at; or every run, in the order of the rows.
 std::vector<Choice> choices(const core::RunRows& rows, bool every_run) {
   std::vector<Choice> chosen;
   for (const core::Cell& cell : rows.cells) {

@@ -15,16 +15,17 @@ namespace broadside::bench {
 struct PlaybackShare {
   std::uint64_t most_bytes = 0;  // of all playbacks, encoded
   std::size_t most_runs = 0;
-  // Every run, so that engines can be looked at side by side, and not only those with something to show.
+  // Takes every run, so that engines can be compared side by side, instead of only the runs with something to show.
   bool every_run = false;
 };
 
-// An equal part of what a page can carry, for one of so many folders.
+// What one of so many folders may add: an equal share of what a page can carry.
 PlaybackShare share_of(std::size_t folders);
 
-// Some frames of some traces of the folder: for each scene the runs in which a verdict failed or is inconclusive, and
-// one that passed; spread evenly over the run, with all recorded frames around each place that a verdict names; all
-// together about as much as the share allows. A trace that is gone or damaged has no playback, and that is no error.
+// Some frames of some traces of the folder. For each scene it takes the runs in which a verdict failed or is
+// inconclusive, and one that passed; frames are spread evenly over the run, with all recorded frames around each place
+// that a verdict names. Together they take about as much as the share allows. A trace that is gone or damaged has no
+// playback, which is no error.
 std::vector<reports::Playback> playbacks_of(const core::RunRows& rows, const std::filesystem::path& folder,
                                             const PlaybackShare& share);
 

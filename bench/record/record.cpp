@@ -77,7 +77,8 @@ core::Cell complete_cell(const ResumePoint& point) {
   return cell;
 }
 
-// Only engines whose counting takes time offer this. Digests alone are recorded to be cheap, so they are not counted.
+// Only engines whose counting takes time offer this capability. A recording of digests alone is meant to be cheap, so
+// there nothing is counted.
 template <typename Capability>
 void ask_for_counts(const CellRequest& request, Capability& capability) {
   auto* counts = dynamic_cast<core::CountsWork*>(&capability);
@@ -136,7 +137,7 @@ core::Result<core::Cell> record_dynamics(const CellRequest& request, core::Engin
   auto last = taker.rest();
   if (!last) return recording.failed(last.error());
   if (core::Status s = add_taken(std::move(last), recording); !s) return s.error();
-  // In a run that went on from a trace, the engine counted only a part.
+  // In a run that resumed from a trace, the engine counted only a part of the work, so nothing is noted.
   if (!point) recording.note_work(dynamics.counters());
   auto cell = recording.finish();
   std::error_code ignored;
@@ -165,7 +166,7 @@ std::vector<std::uint8_t> static_flags(const core::Scene& scene) {
   return flags;
 }
 
-// Fed the boxes that the driver's broad phase saw, frame by frame.
+// Runs the broad phase on the boxes that the driver's broad phase saw, frame by frame.
 core::Result<core::Cell> record_broad(const CellRequest& request, core::Engine& engine) {
   auto opened = open_driver(request, bit(Group::kDetection));
   if (!opened) return opened.error();
@@ -203,8 +204,8 @@ core::Result<core::Cell> record_broad(const CellRequest& request, core::Engine& 
   return recording.finish();
 }
 
-// Measures separations on a sampled set of frames at the poses of detection: of pairs that the driver confirmed and of
-// pairs that are near (bench/record/near_pairs.hpp); where the driver itself measured pairs, of those.
+// Measures separations in a sample of frames, at the poses of detection. Measured are the pairs that the driver
+// confirmed and pairs that are near (bench/record/near_pairs.hpp); where the driver itself measured pairs, those.
 core::Result<core::Cell> record_narrow(const CellRequest& request, core::Engine& engine) {
   auto opened = open_driver(request, bit(Group::kDetection));
   if (!opened) return opened.error();

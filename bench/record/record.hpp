@@ -9,9 +9,9 @@
 
 namespace broadside::bench {
 
-// In this process. An error is bad input or a trace that could not be written; an engine that fails by itself is a cell
-// that says so. On Ctrl-C the trace stays as NAME.h5.part, readable up to its last frame, and the cell is interrupted.
-// capability: "dynamics", "broad" or "narrow"; empty = the first of these that the engine offers.
+// Records in this process. An error is bad input or a trace that could not be written; an engine that fails by itself
+// gives a cell that says so. On Ctrl-C the trace stays as NAME.h5.part, readable up to its last frame, and the cell is
+// interrupted. capability: "dynamics", "broad" or "narrow"; empty = the first of these that the engine offers.
 core::Result<core::Cell> record_cell(const CellRequest& request, std::string_view capability = {});
 
 }  // namespace broadside::bench

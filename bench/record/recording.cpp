@@ -24,7 +24,7 @@ core::Result<Recording> Recording::start(const CellRequest& request, core::Trace
 core::Status Recording::add(core::FrameRecord frame) {
   last_step_ = frame.step;
   last_digest_ = frame.digest;
-  // Without a trace only the last frame is read, for its digest.
+  // Without a trace only the last frame is recorded, for its digest.
   frames_ = header_.level == core::RecordLevel::kNone ? frame.step : frames_ + 1;
   count(frame);
   if (writer_) {
@@ -63,7 +63,7 @@ core::Cell Recording::cell(core::CellState state, const std::string& reason) {
   for (const auto& [what, sum] : counts_)
     cell.notes[what] = fmt::format("{:.4g}", static_cast<double>(sum) / static_cast<double>(frames_));
   cell.counters = work_;
-  // Raw pairs are work for the engine's own filter; the other pairs are its answers.
+  // The count of raw pairs measures the work of the engine's own filter; the other pairs are its answers.
   if (const auto raw = counts_.find("pairs: raw, mean"); raw != counts_.end()) cell.counters["raw pairs"] = raw->second;
   progress_.reset();
   return cell;

@@ -1,4 +1,4 @@
-// The writing half of a recording run: header, frames, interrupt, progress and the finished cell.
+// Writes a recording run: header, frames, interrupt, progress and the finished cell.
 #pragma once
 
 #include <chrono>
@@ -25,7 +25,7 @@ class Recording {
   // With level none nothing is written, and the cell has no trace file.
   static core::Result<Recording> start(const CellRequest& request, core::TraceHeader header, std::uint64_t frames);
 
-  // Queues the frame for the writer's thread; waits while that is too far behind.
+  // Queues the frame for the writing thread; waits while that thread is too far behind.
   core::Status add(core::FrameRecord frame);
   void note_progress(std::uint64_t done) { progress_->at(done); }
   [[nodiscard]] bool is_due(std::uint64_t step) const {

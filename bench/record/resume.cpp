@@ -14,15 +14,15 @@
 namespace broadside::bench {
 namespace {
 
-// Engines whose whole state, where bodies translate, is the states of the bodies: a frame depends on the frame before
-// and on nothing else. Others keep state that no trace holds, such as contact caches and warm-starting impulses.
+// Engines whose whole state, where bodies translate, is the bodies' states: a frame depends on the frame before it
+// alone. Other engines keep state that no trace holds, such as contact caches and warm-start impulses.
 constexpr std::array<std::string_view, 4> kStateIsInBodies{"octree-cpu", "octree-gpu", "hash-cpu", "hash-gpu"};
 
 constexpr const char* kStartAnew = "run without --resume to start at the beginning";
 
 core::Status check_engine(const core::TraceHeader& wanted) {
   const core::Stamp& stamp = wanted.stamp;
-  // Engines of bodies that turn keep impulses to start from, and what orientations lost to rounding.
+  // Engines of bodies that turn keep warm-start impulses, and what orientations lost to rounding.
   const bool turns = wanted.scene.motion == core::Motion::kRigid;
   if (turns || std::find(kStateIsInBodies.begin(), kStateIsInBodies.end(), stamp.engine) == kStateIsInBodies.end())
     return core::Error{"this engine keeps more state than a trace holds, so it cannot go on from one", stamp.engine,

@@ -15,16 +15,16 @@
 namespace broadside::bench {
 
 struct ResumePoint {
-  core::TraceReader trace;  // its frames are part of the whole run
-  core::Scene scene;        // the request's, but for the bodies' positions and velocities
+  core::TraceReader trace;  // whose frames are part of the whole run
+  core::Scene scene;        // the request's, except for the bodies' positions and velocities
   std::uint64_t step = 0;   // of the trace's last frame
   bool is_complete = false;
 };
 
-// Looks for NAME.h5.part, NAME.h5.interrupted and NAME.h5 (recovered, or complete) in the request's folder and takes
-// the one with the most frames; none = start anew. A .part is renamed to .interrupted first, so that a kill while its
+// Looks for NAME.h5.part, NAME.h5.interrupted and NAME.h5 (recovered, or complete) in the request's folder, and takes
+// the file with the most frames; none = start anew. A .part is renamed to .interrupted first, so that a kill while its
 // frames are copied loses nothing. Errors: a trace of another stamp, level or choice of steps; an engine with more
-// state than its bodies'; a file whose writer is still at work.
+// state than that of its bodies; a file that is still being written.
 core::Result<std::optional<ResumePoint>> find_resume_point(const CellRequest& request, const core::TraceHeader& wanted);
 
 // The windows of steps that a trace was recorded in; empty = all steps.

@@ -49,7 +49,7 @@ class Runner {
     known_ = std::move(known.value().cells);
 
     std::vector<CellSpec> specs = plan_.cells;
-    // Simulations first, in the order asked for, because the others are fed by them.
+    // Simulations run first, in the order asked for, because their traces drive the other engines.
     std::stable_partition(specs.begin(), specs.end(), [](const CellSpec& s) { return offers(*s.row, "dynamics"); });
     for (const CellSpec& spec : specs)
       if (!offers(*spec.row, "dynamics") && !records_a_driver()) return needs_full(*spec.row);
@@ -71,7 +71,7 @@ class Runner {
  private:
   static const core::EngineRow* driver_row() { return find_engine(kDriver).value(); }
 
-  // Engines that do not simulate are fed by every frame of a full trace.
+  // Engines that do not simulate need every frame of a full trace.
   [[nodiscard]] bool records_a_driver() const {
     return plan_.level == core::RecordLevel::kFull && plan_.selection.every == 1;
   }
@@ -112,8 +112,8 @@ class Runner {
     return save();
   }
 
-  // Other people's code may abort; a limit that was asked for binds a process. It is meant for the engines that were
-  // asked for, and not for a driver that only feeds them.
+  // Other people's code may abort, and a limit that was asked for can only be set on a process of its own. The limit is
+  // meant for the engines that were asked for, not for a driver that only feeds them.
   [[nodiscard]] bool is_apart(const CellSpec& spec, bool is_asked_for) const {
     return spec.row->runs_in_child || (is_asked_for && plan_.limits.are_asked);
   }

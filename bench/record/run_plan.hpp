@@ -1,4 +1,4 @@
-// Several cells of one scene, in an order in which each finds the traces that it needs.
+// Records several cells of one scene, in an order in which each finds the traces that it needs.
 #pragma once
 
 #include <cstdint>
@@ -23,12 +23,12 @@ struct RunPlan {
   StepSelection selection;
   std::uint32_t narrow_every = 1;
   std::filesystem::path folder;
-  // Take over traces of the same stamp and frames that are in the folder already.
+  // Take over complete traces of the same stamp and frames that are already in the folder.
   bool reuse = false;
-  // Go on from traces of the same stamp that are in the folder and not complete.
+  // Continue incomplete traces of the same stamp that are in the folder.
   bool resume = false;
-  ChildLimits limits;  // of a reference's process
-  // Time references in this process instead of a child: set in the child itself.
+  ChildLimits limits;  // limits of the child process of a reference
+  // Time references in this process and not in a child; set in the child itself.
   bool times_here = false;
 };
 
@@ -37,9 +37,9 @@ struct RunOutcome {
   std::uint64_t reused = 0;  // of them, recorded cells taken over from an earlier run
 };
 
-// Engines that do not simulate are fed by the first simulating cell with default settings of the pipeline; if the plan
-// has none, octree-cpu is recorded first and becomes a cell too. References run in child processes. The folder's
-// cells.json is brought up to date after every cell, so a run that ends early still says what it has.
+// Engines that do not simulate are driven by the first simulating cell with default settings of the pipeline. If the
+// plan has none, octree-cpu is recorded first and becomes a cell too. References run in child processes. The folder's
+// cells.json is updated after every cell, so a run that ends early still lists the cells that it has.
 core::Result<RunOutcome> run_plan(const RunPlan& plan);
 
 // Makes the folder, or says why it cannot be written. What is already in it stays.

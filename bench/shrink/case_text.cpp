@@ -83,7 +83,7 @@ std::string spring_lines(const std::vector<core::Spring>& springs) {
   return text + "\n  };\n";
 }
 
-// What bodies that turn need beside their states.
+// The lines for bodies that turn: what they need in addition to their states.
 std::string rigid_lines(const core::Scene& s) {
   std::string text;
   if (s.motion == core::Motion::kRigid) text += "  scene.motion = core::Motion::kRigid;\n";

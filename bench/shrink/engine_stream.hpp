@@ -1,4 +1,5 @@
-// An engine's frames, one after another, without a file: a trial of the shrinker judges them.
+// An engine's frames, one after another, without a file, so that the shrinker can judge a trial without writing a
+// trace.
 #pragma once
 
 #include <cstdint>
@@ -15,21 +16,21 @@
 
 namespace broadside::bench {
 
-// Puts the recorded states at the end of a frame in place of where the bodies start.
+// Starts the bodies from the recorded states at the end of a frame.
 void set_states(std::vector<core::Body>& bodies, const core::FrameRecord& frame);
 
-// Runs the engine in this process. One that does not simulate is fed by octree-cpu with its default settings, frame by
-// frame, as recording does it.
+// Runs the engine in this process. An engine that does not simulate gets the frames of octree-cpu with its default
+// settings, as in recording.
 class EngineStream {
  public:
-  // scene outlives the stream; all of its frames are run. Errors: settings, an engine that is not on this machine or
-  // refuses the scene.
+  // The scene must outlive the stream; all of its frames are run. Errors: settings, an engine that is not on this
+  // machine or refuses the scene.
   static core::Result<std::unique_ptr<EngineStream>> start(const core::Scene& scene, const CellSpec& spec);
 
   [[nodiscard]] const core::TraceHeader& header() const { return header_; }
-  // For the judge, which reads in order.
+  // The frames in order, for the judge.
   [[nodiscard]] validation::FrameSource source();
-  // The bodies as the last frame that was read left them.
+  // The states of the bodies after the last frame that was read.
   [[nodiscard]] const std::vector<core::Body>& bodies() const { return bodies_; }
 
  private:

@@ -7,16 +7,16 @@
 
 namespace broadside::bench {
 
-// fails(part): whether this part, in the list's order, still shows the fault; the whole list does. is_spent(): whether
-// to stop with the best so far. The result fails, and no single item can be left out of it unless time ran out (Zeller
-// and Hildebrandt, "Simplifying and isolating failure-inducing input", 2002: their ddmin). Deterministic.
+// fails(part): whether this part, in the list's order, still shows the fault, as the whole list does. is_spent():
+// whether to stop with the best part so far. The result fails, and no single item can be left out of it unless time ran
+// out (Zeller and Hildebrandt, "Simplifying and isolating failure-inducing input", 2002: their ddmin). Deterministic.
 template <typename T, typename Fails, typename IsSpent>
 std::vector<T> minimal_subset(std::vector<T> items, Fails fails, IsSpent is_spent) {
   std::size_t parts = 2;
   while (items.size() >= 2 && !is_spent()) {
     const std::size_t size = (items.size() + parts - 1) / parts;
     bool is_smaller = false;
-    // Halves alone, then the list without each of ever smaller parts.
+    // First tries each half alone, then the list without each of its ever smaller parts.
     for (std::size_t begin = 0; begin < items.size() && !is_smaller && !is_spent(); begin += size) {
       const auto first = items.begin() + static_cast<std::ptrdiff_t>(begin);
       const auto last = items.begin() + static_cast<std::ptrdiff_t>(std::min(begin + size, items.size()));

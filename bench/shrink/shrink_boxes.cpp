@@ -20,7 +20,7 @@ namespace {
 using core::Box;
 using core::Pair;
 
-// Up to here comparing all pairs takes less than a millisecond.
+// With up to so many boxes, comparing all pairs takes less than a millisecond.
 constexpr std::size_t kFewBoxes = 1000;
 
 std::vector<Pair> overlapping(const std::vector<Box>& boxes) {

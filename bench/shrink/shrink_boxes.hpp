@@ -25,10 +25,10 @@ struct ShrunkBoxes {
   bool is_out_of_time = false;
 };
 
-// Fewer boxes, then a shift of all to where the first is at the origin, then fewer digits, while what the finder finds
-// is not the set of overlapping pairs (all pairs compared for few boxes, the validators' join for many). A finder that
-// fails with an error counts as wrong too when it failed so on the whole set; then missed and extra are empty. Errors:
-// the finder is right about the whole set.
+// Removes boxes, then shifts all so that the first is at the origin, then removes digits, as long as the finder's pairs
+// are not the set of overlapping pairs (found by comparing all pairs of few boxes, and by the validators' join for
+// many). A finder that fails with an error counts as wrong too, if it failed so on the whole set; then missed and extra
+// are empty. Errors: the finder is right about the whole set.
 core::Result<ShrunkBoxes> shrink_boxes(const std::vector<core::Box>& boxes, const PairFinder& find,
                                        const ShrinkLimits& limits);
 

@@ -24,9 +24,9 @@ using core::Scene;
 
 // The longest piece of a run between two checks of the verdict.
 constexpr std::uint32_t kLongestPiece = 64;
-// Pieces stop growing once one takes this share of the time limit.
+// Pieces stop growing once a piece takes 1 / kPiecesInTime of the time limit.
 constexpr double kPiecesInTime = 40.0;
-// Meshes larger than this lose their triangles only after a box of their extent was tried.
+// With more numbers than this in a scene, digits are removed from all numbers together and not one by one.
 constexpr std::uint64_t kManyNumbers = 2000;
 
 std::uint64_t triangle_count(const Scene& scene) {
@@ -68,7 +68,7 @@ class SceneShrinker {
   [[nodiscard]] double elapsed_s() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
   [[nodiscard]] bool is_spent() const { return elapsed_s() > limits_.time_s || is_interrupted(); }
 
-  // Runs a scene. An error of a smaller scene only means that the scene does not show the fault.
+  // Runs a scene. An error of a smaller scene only means that this scene does not show the fault.
   std::optional<TrialAnswer> ask(const Scene& scene) {
     ++trials_;
     auto answer = oracle_(scene);
@@ -79,8 +79,8 @@ class SceneShrinker {
     return std::move(answer).value();
   }
 
-  // Takes the scene when it still gets the verdict. Meshes that were clean must stay clean: otherwise a file's reader
-  // would clean them and load another mesh.
+  // Takes the scene when it still gets the verdict. Meshes that were clean must stay clean: otherwise the reader of the
+  // scene's file would clean them and load different meshes.
   bool take(const Scene& scene) {
     if (!core::check_scene(scene) || (is_clean_ && !has_clean_meshes(scene))) return false;
     auto answer = ask(scene);
@@ -95,7 +95,7 @@ class SceneShrinker {
     ++changes_;
   }
 
-  // Once per size that was reached.
+  // Tells each new size once.
   void tell() {
     const std::string size =
         fmt::format("{} bodies, {} frames, {} triangles", best_.body_count(), best_.frames, triangle_count(best_));
@@ -104,8 +104,8 @@ class SceneShrinker {
     limits_.tell(fmt::format("{} ({} runs, {:.1f} s)", size, trials_, elapsed_s()));
   }
 
-  // Runs piece by piece, each from where the last one ended, until a piece gets the verdict. An engine with more state
-  // than its bodies' may need all frames from the start; then those are run.
+  // Runs the scene piece by piece, each piece from the end of the one before, until a piece gets the verdict. An engine
+  // with more state than its bodies' may need all frames from the start; then the whole scene is run.
   core::Status find_fault(const Scene& scene) {
     Scene piece = scene;
     std::uint32_t length = 1;
@@ -119,7 +119,7 @@ class SceneShrinker {
       const double began_s = elapsed_s();
       auto answer = ask(piece);
       if (!answer) return *last_error_;
-      // A piece may leave undecided what the whole run decides.
+      // A piece may be inconclusive where the whole run is not, so only a fail counts here.
       if (answer->verdict.outcome == core::Outcome::kFail) {
         wanted_ = answer->verdict.outcome;
         accept(piece, std::move(*answer));
@@ -141,8 +141,8 @@ class SceneShrinker {
     return core::Done{};
   }
 
-  // One frame from the state just before the worst place; else the shortest run from the start that shows the fault,
-  // begun as late as it can be.
+  // Tries one frame from the state just before the worst place. If that does not fail, takes the shortest run from the
+  // start that shows the fault, and then starts it as late as possible.
   void drop_frames() {
     if (best_.frames <= 1 || is_spent()) return;
     const std::int64_t worst = verdict_.worst.step;
@@ -176,7 +176,7 @@ class SceneShrinker {
     return take(later);
   }
 
-  // Faults are local: first the bodies named by the verdict and those around them, then any subset.
+  // Faults are local, so first the bodies that the verdict names and those around them are tried, then any subset.
   void drop_bodies() {
     if (best_.body_count() <= 1 || is_spent()) return;
     const Scene whole = best_;

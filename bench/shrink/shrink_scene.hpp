@@ -26,15 +26,15 @@ struct ShrunkScene {
   bool is_out_of_time = false;  // time ran out: it could perhaps be smaller
 };
 
-// Anything that judges a scene: ask() with a question, or a test's own.
+// Judges a scene: ask() with a question, or a test's own function.
 using Oracle = std::function<core::Result<TrialAnswer>(const core::Scene&)>;
 
-// In this order, until none changes anything or time is up: frames (the run is cut before the fault and, where the
-// engine has no memory but the bodies' states, started from the state just before it), bodies, springs, mesh
-// triangles, settings of the scene that do not matter, and digits of positions, velocities, vertices and domain.
-// Deterministic but for the time limit; at every moment the best scene so far gets the verdict that the whole scene
-// got, though perhaps by another fault under the same law. Errors: the whole scene's own, and a verdict that is neither
-// fail nor inconclusive.
+// Repeats these steps, in this order, until none changes anything or time is up:
+// frames (the run is cut before the fault and, where the engine has no memory but the bodies' states, started from the
+// state just before it), bodies, springs, mesh triangles, settings of the scene that do not matter, and digits of
+// positions, velocities, vertices and domain. Deterministic except for the time limit. At every moment the best scene
+// so far gets the verdict of the whole scene, though perhaps by another fault under the same law. Errors: the whole
+// scene's own, and a verdict that is neither fail nor inconclusive.
 core::Result<ShrunkScene> shrink_scene(const core::Scene& scene, const Oracle& oracle, const ShrinkLimits& limits);
 
 }  // namespace broadside::bench

@@ -18,7 +18,8 @@ namespace {
 using core::Scene;
 using core::Vec3;
 
-// Calls visit(float&) for each number whose digits can go, in a fixed order. Meshes are copied before they are changed.
+// Calls visit(float&) for each number whose digits may be removed, in a fixed order. Meshes are copied before they are
+// changed.
 template <typename Visit>
 void visit_numbers(Scene& scene, Visit visit) {
   for (core::Body& b : scene.bodies)
@@ -51,7 +52,8 @@ Scene with_mesh(const Scene& scene, std::size_t m, core::Mesh mesh) {
   return changed;
 }
 
-// An upper bound of the |coordinates| that a body and its mesh can reach in the scene's frames at its highest speed.
+// An upper bound on the coordinates, without sign, that a body and its mesh can reach in the scene's frames at the
+// highest speed.
 float far_enough(const Scene& scene) {
   double far = 1.0;
   for (const core::Body& b : scene.bodies)

@@ -11,22 +11,22 @@
 
 namespace broadside::bench {
 
-// Nine digits name every float: rounding to fewer is a change.
+// Nine digits are enough to name every float, so fewer digits may change it.
 inline constexpr int kAllDigits = 9;
 
-// The scene with these of its bodies alone, in the scene's order, and the meshes and springs that they use.
+// The scene with only these bodies, in the scene's order, and the meshes and springs that they use.
 core::Scene with_bodies(const core::Scene& scene, std::span<const std::uint32_t> bodies);
 
-// The scene with these of its springs alone.
+// The scene with only these springs.
 core::Scene with_springs(const core::Scene& scene, std::span<const std::uint32_t> springs);
 
-// Body indices in the order of their distance from the nearest of `from`; those of `from` come first.
+// All bodies, sorted by the distance from the nearest body of `from`; those of `from` come first.
 std::vector<std::uint32_t> by_distance(const core::Scene& scene, std::span<const std::uint32_t> from);
 
 // Mesh m replaced by a box of the same extent with one square a side: 12 triangles. None when its box is flat or it has
 // no more than 12.
 std::optional<core::Scene> with_box_mesh(const core::Scene& scene, std::size_t m);
-// Mesh m with these of its triangles alone, cleaned. None when nothing with area is left.
+// Mesh m with only these triangles, cleaned. None when no triangle with area is left.
 std::optional<core::Scene> with_triangles(const core::Scene& scene, std::size_t m,
                                           std::span<const std::uint32_t> triangles);
 

@@ -11,9 +11,9 @@
 
 namespace broadside::bench {
 
-// The trace's scene with its bodies in the states recorded just before the worst place that the validator finds in the
-// trace, and one frame to run; this saves the run up to there. None when the engine does not get the verdict from
-// there, or the trace does not record those states. Errors: an unreadable trace, an unknown validator.
+// The trace's scene, with its bodies in the states recorded just before the worst place that the validator finds, and
+// with one frame to run; this saves running up to there. None when the engine does not get the verdict from there, or
+// the trace does not record those states. Errors: an unreadable trace, an unknown validator.
 core::Result<std::optional<core::Scene>> start_before_fault(const std::string& trace, const Question& question,
                                                             const Oracle& oracle);
 

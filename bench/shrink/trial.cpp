@@ -17,14 +17,14 @@
 namespace broadside::bench {
 namespace {
 
-// Seconds for one run of a child: the shrinker makes hundreds of trials, so it cannot wait longer for one.
+// Time limit of one run in a child process: the shrinker makes hundreds of trials, so it cannot wait longer for one.
 constexpr double kChildLimit_s = 30.0;
 
 core::Result<const validation::ValidatorRow*> find_validator(const std::string& name) {
   const auto rows = validation::validators();
   const auto row = std::find_if(rows.begin(), rows.end(), [&](const auto& r) { return r.name == name; });
   if (row != rows.end()) return &*row;
-  // Several tables name validators; judge()'s error lists their names.
+  // Validators are listed in several tables; judge()'s error names all of them.
   const core::TraceHeader nothing;
   const validation::FrameSource none{nothing, {}, {}};
   return validation::judge(none, nullptr, {{name}, {}}).error();
@@ -90,7 +90,7 @@ core::Result<TrialAnswer> ask_child(const Question& question, const core::Scene&
                        "set TMPDIR to a folder that can be written"};
   if (core::Status s = write_scene_trace(scene, scratch.path() / "scene.h5"); !s) return s.error();
   const auto simulates = [](const CellSpec& spec) { return offers(*spec.row, "dynamics"); };
-  // Engines that do not simulate are fed. Others need no driver, which may not have what the scene asks for.
+  // Engines that do not simulate need a driver. Others get none, because it may not support what the scene asks for.
   std::filesystem::path driver;
   if (!simulates(question.engine) || (question.against && !simulates(*question.against))) {
     auto recorded = record_one(scene, {find_engine("octree-cpu").value(), {}}, scratch.path(), {});

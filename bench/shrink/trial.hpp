@@ -13,7 +13,7 @@
 
 namespace broadside::bench {
 
-// What is asked of every scene that is tried.
+// The question that is asked about every scene that is tried.
 struct Question {
   std::string validator;
   CellSpec engine;
@@ -23,12 +23,12 @@ struct Question {
 
 struct TrialAnswer {
   core::Verdict verdict;
-  std::vector<core::Body> end;  // the bodies as the run left them
+  std::vector<core::Body> end;  // the bodies at the end of the run
 };
 
-// Runs all frames of the scene and judges them with the one validator. Engines made of other people's libraries run in
-// a child process, so that one that aborts is an error here and not the end. Errors: an unknown validator, an engine
-// that refuses the scene or fails.
+// Runs all frames of the scene and judges them with this one validator. Engines made of other people's libraries run in
+// a child process, so that an abort becomes an error here and does not end this program. Errors: an unknown validator,
+// an engine that refuses the scene or fails.
 core::Result<TrialAnswer> ask(const Question& question, const core::Scene& scene);
 
 // The same for test cases: engine and against as on the command line, "octree-cpu[levels=A]"; against may be empty.

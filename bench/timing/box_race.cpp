@@ -103,7 +103,7 @@ core::Result<RaceRow> race(const std::string& stream_name, const CellSpec& cell,
 }
 
 nlohmann::ordered_json json_of(const datasets::BoxKind& kind) {
-  // A ratio to a point has no number in JSON.
+  // A ratio to the size of a point is infinite, which JSON cannot write.
   const double ratio = kind.size_ratio();
   return {{"boxes", kind.boxes},
           {"least_m", kind.least_m},

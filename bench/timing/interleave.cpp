@@ -28,7 +28,7 @@ core::Error interrupted_error() {
   return {"interrupted: times of pairs that did not end are dropped", "compare", "", core::Exit::kMissing};
 }
 
-// One program's side: its folder, with one folder per scene in it.
+// One of the two programs: its folder, with one folder per scene in it.
 class Side {
  public:
   Side(const InterleavePlan& plan, std::string program, std::filesystem::path folder)
@@ -62,7 +62,7 @@ class Side {
     return help.find("--turns") != std::string::npos;
   }
 
-  // A timed process, alone or as one side of `turns` over the descriptor.
+  // Starts a timed process, alone or as one side of `turns` over the descriptor.
   core::Result<RunningProgram> start_timing(std::size_t scene, const std::string& turns = {}, int descriptor = -1) {
     const std::filesystem::path at = scene_folder(scene);
     Arguments arguments{"time",  plan_.scenes[scene],      "--repetitions", std::to_string(plan_.repetitions),
@@ -169,7 +169,7 @@ core::Status time_one_by_one(std::array<Side*, 2> order, std::size_t scene, std:
   return core::Done{};
 }
 
-// Both at once; each works while the other waits.
+// Starts both processes at once; each works while the other waits.
 core::Status time_in_turns(std::array<Side*, 2> order, std::size_t scene, std::uint64_t pair, int core) {
   std::array<int, 2> ends{};
   if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0)
@@ -181,7 +181,7 @@ core::Status time_in_turns(std::array<Side*, 2> order, std::size_t scene, std::u
     const std::string turns = std::string(kRoles[k]) + ":" + std::to_string(ends[k]) + ":" + std::to_string(core);
     timings.push_back(order[k]->start_timing(scene, turns, ends[k]));
   }
-  // When one process ends, the other sees the connection end, because this process holds no end of it any more.
+  // This process closes its own ends, so that when one process ends, the other sees the connection end.
   for (const int end : ends) close(end);
   core::Status status = core::Done{};
   for (const std::size_t k : {0U, 1U}) {
@@ -213,7 +213,7 @@ core::Result<InterleavedRows> run_interleaved(const InterleavePlan& plan, const 
     fmt::print(stderr, "broadside: compare: one of the programs knows no turns: whole processes run one by one\n");
   const std::vector<int> cores = own_cores();
   Progress proof("proving", 2 * plan.scenes.size());
-  std::vector<std::size_t> scenes;  // that are timed in this round
+  std::vector<std::size_t> scenes;  // scenes that are timed in this round
   for (std::size_t scene = 0; scene < plan.scenes.size(); ++scene) {
     for (Side& side : sides)
       if (core::Status s = side.prove(scene); !s) return s.error();
@@ -229,7 +229,7 @@ core::Result<InterleavedRows> run_interleaved(const InterleavePlan& plan, const 
       const bool is_base_first = pairs % 2 == 1;
       const std::array<Side*, 2> order{&sides[is_base_first ? 0 : 1], &sides[is_base_first ? 1 : 0]};
       for (const std::size_t scene : scenes) {
-        // Two pairs, one of each order, before the next core.
+        // Two pairs run on a core, one in each order, before the next core.
         const core::Status s = takes_turns ? time_in_turns(order, scene, pairs, cores[(pairs - 1) / 2 % cores.size()])
                                            : time_one_by_one(order, scene, pairs);
         if (!s) return s.error();

@@ -1,5 +1,5 @@
-// A frame of boxes found in parts of space, one after another by one engine: a set that does not fit at once, or a look
-// at what cutting costs before it runs on several devices.
+// Finds the pairs of a frame of boxes in parts of space, one part after another with one engine: for a set that does
+// not fit at once, or to see what cutting costs before it runs on several devices.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +15,7 @@ namespace broadside::bench {
 
 // What a frame took and found. Pairs are handed on part by part, and no more than one part's are in memory.
 struct PartedFrame {
-  std::uint64_t dealt = 0;  // boxes of all parts: those that reach over a face count in each
+  std::uint64_t dealt = 0;  // boxes of all parts: a box that reaches over a face counts in each
   std::uint64_t largest = 0;
   std::uint64_t pairs = 0;
   std::uint64_t raw = 0;
@@ -23,8 +23,8 @@ struct PartedFrame {
   double cut_s = 0.0;  // choosing the cut, and copying each part's boxes
   double load_s = 0.0;
   double find_s = 0.0;
-  double filter_s = 0.0;     // of read_back_s: the engine's own
-  double read_back_s = 0.0;  // with leaving out what other parts find
+  double filter_s = 0.0;     // part of read_back_s: the engine's own filter
+  double read_back_s = 0.0;  // includes leaving out the pairs that other parts find
 };
 
 using PairConsumer = std::function<void(std::span<const core::Pair>)>;

@@ -41,7 +41,7 @@ void add_time(core::Sample& sample, std::string_view stage, double seconds) {
   sample.stages.push_back({std::string(stage), {seconds}});
 }
 
-// Boxes or poses from the driver's frames for engines that do not simulate, in memory before any clock runs.
+// Boxes or poses of the driver's frames, for engines that do not simulate. They are in memory before any clock runs.
 struct BakedFrames {
   std::vector<std::uint64_t> steps;
   std::vector<core::FrameRecord> frames;
@@ -70,8 +70,8 @@ void add_step(core::Sample& sample, const core::Dynamics& dynamics, double whole
   add_time(sample, "frame", whole);
 }
 
-// A frame's time runs from the end of one step to the end of the next and includes what is done here in between, so
-// that all times add up to the time of all steps.
+// A frame's time runs from the end of one step to the end of the next and includes the work here between them, so that
+// the sum of all times is the time of all steps.
 core::Status time_ahead(const RunPlan& plan, core::Dynamics& dynamics, core::RunsAhead& ahead, std::uint64_t frames,
                         core::Sample& sample) {
   auto start = Clock::now();
@@ -85,7 +85,7 @@ core::Status time_ahead(const RunPlan& plan, core::Dynamics& dynamics, core::Run
 
 core::Status time_steps(const RunPlan& plan, core::Dynamics& dynamics, std::uint64_t frames, Turns& turns,
                         core::Sample& sample) {
-  // A program behind a pipe may time its steps by its own clock.
+  // A program behind a pipe may time its steps by a clock of its own.
   const auto* own_clock = dynamic_cast<const core::OwnStepTime*>(&dynamics);
   for (std::uint64_t step = 1; step <= frames && !is_interrupted(); ++step) {
     const auto start = Clock::now();
@@ -104,7 +104,7 @@ core::Status time_dynamics(const RunPlan& plan, core::Engine& engine, std::uint6
                            core::Sample& sample) {
   core::Dynamics& dynamics = *engine.dynamics;
   if (core::Status s = dynamics.load(plan.scene); !s) return s;
-  // Turns may only change hands when none of this engine's steps is under way.
+  // A turn may only end when none of this engine's steps is in progress, so engines do not run ahead in turns.
   core::RunsAhead* ahead = turns.are_alone() ? dynamic_cast<core::RunsAhead*>(&dynamics) : nullptr;
   core::Status ran = ahead != nullptr ? time_ahead(plan, dynamics, *ahead, frames, sample)
                                       : time_steps(plan, dynamics, frames, turns, sample);
@@ -172,7 +172,7 @@ core::Status time_narrow(const RunPlan& plan, core::Engine& engine, const BakedF
   return core::Done{};
 }
 
-// A number that no other process of this machine and day has.
+// A number that no other process of this machine has on this day.
 std::uint64_t process_name() {
   const auto now = std::chrono::system_clock::now().time_since_epoch().count();
   return core::splitmix64(static_cast<std::uint64_t>(now) ^ (static_cast<std::uint64_t>(getpid()) << 48U)) | 1U;
@@ -249,7 +249,7 @@ core::Result<core::Sample> time_in_child(const RunPlan& plan, const CellSpec& sp
 
 core::Result<core::Sample> time_here(const RunPlan& plan, Timer& timer, const CellSpec& spec, bool is_first) {
   if (is_first) {
-    // One frame of a narrow phase is so much work that it warms everything up.
+    // One frame of a narrow phase is so much work that it is warm-up enough.
     const bool is_narrow = !offers(*spec.row, "dynamics") && !offers(*spec.row, "broad");
     auto warm = timer.time(spec, is_narrow ? 1 : kWarmUpFrames);
     if (!warm) return warm.error();
@@ -262,7 +262,7 @@ core::Result<core::Sample> time_here(const RunPlan& plan, Timer& timer, const Ce
 core::Result<core::Sample> time_run(const RunPlan& plan, const CellSpec& spec, std::uint64_t most_frames) {
   RunPlan alone = plan;
   alone.cells = {spec};
-  alone.times_here = true;  // the caller decides in which process it times
+  alone.times_here = true;  // in the process of the caller, which decides where it times
   Turns none;
   Timer timer(alone, none);
   if (core::Status s = timer.prepare(); !s) return s.error();
@@ -297,7 +297,7 @@ core::Result<std::vector<core::Sample>> time_plan(const RunPlan& plan, std::uint
       if (is_interrupted())
         return core::Error{"interrupted: no time is kept of a run that did not end", "time", "", core::Exit::kMissing};
       sample.value().repetition = r;
-      if (!is_apart) sample.value().process = process;  // a child has named its own
+      if (!is_apart) sample.value().process = process;  // a child has set its own
       sample.value().warm_up_frames = kWarmUpFrames;
       samples.push_back(std::move(sample).value());
       progress.at(samples.size());

@@ -15,8 +15,9 @@
 namespace broadside::bench {
 namespace {
 
-// Long against the cost of a handover (some 10 us, and caches that the other process used), short against the tens of
-// milliseconds in which half of the load on a neighboring core has changed (reports/README.md).
+// The length of a turn: long compared with the cost of a handover (some 10 us, and caches that the other process used),
+// and short compared with the tens of milliseconds in which half of the load on a neighboring core has changed
+// (reports/README.md).
 constexpr std::chrono::microseconds kTurn{1000};
 
 constexpr std::uint64_t kToTheEnd = std::numeric_limits<std::uint64_t>::max();
@@ -25,7 +26,8 @@ bool send_number(int socket, std::uint64_t number) {
   return send(socket, &number, sizeof number, MSG_NOSIGNAL) == static_cast<ssize_t>(sizeof number);
 }
 
-// False when the other process is gone, or this process was told to stop. Eight bytes of one send arrive in one piece.
+// False when the other process is gone, or this process was told to stop. Eight bytes sent in one call arrive in one
+// piece.
 bool receive_number(int socket, std::uint64_t& number) {
   ssize_t got = 0;
   do {
@@ -67,8 +69,8 @@ core::Status Turns::join(const std::string& text) {
   return core::Done{};
 }
 
-// Moves this thread to the core and then restores its set of allowed cores, because threads that it starts later
-// inherit that set.
+// Moves this thread to the core, and then restores the set of cores that it may use, because threads that it starts
+// later inherit that set.
 void Turns::sit_down() const {
   if (core_ < 0 || sched_getcpu() == core_) return;
   cpu_set_t before;
@@ -79,7 +81,7 @@ void Turns::sit_down() const {
   if (sched_setaffinity(0, sizeof one, &one) == 0) sched_setaffinity(0, sizeof before, &before);
 }
 
-// Waits until the turn is back, or the other process is gone; then this process runs alone.
+// Waits until the turn comes back or the other process is gone; in the latter case this process goes on alone.
 void Turns::hand_over() {
   std::uint64_t number = 0;
   if (!send_number(socket_, done_) || !receive_number(socket_, number)) {

@@ -9,13 +9,14 @@
 
 namespace broadside::bench {
 
-// Disturbances of a core come and go within milliseconds to seconds, separately for each core: on a virtual machine
-// they come from the neighbor that shares the physical core, and cost up to 1.8 times. Two processes that compute the
-// same frames on one core within some milliseconds are disturbed alike, so the ratio of their frames is not.
+// Disturbances of a core come and go within milliseconds to seconds, separately for each core. On a virtual machine
+// they come from the neighbor that shares the physical core, and make work take up to 1.8 times as long. Two processes
+// that compute the same frames on one core within some milliseconds are disturbed alike, so the ratio of their times is
+// not disturbed.
 //
-// The first process ends its turn after the first frame past the length of a turn and says how many frames it has done;
-// the second does as many and gives the turn back. So frame k of both is computed within two turns, and where one of
-// them stops or dies the other goes on alone.
+// The first process ends its turn after the first frame that ends later than the length of a turn, and says how many
+// frames it has done; the second does as many and gives the turn back. So frame k of both is computed within two turns.
+// When one process stops or dies, the other goes on alone.
 class Turns {
  public:
   Turns() = default;  // alone: the functions below do not wait
@@ -30,11 +31,11 @@ class Turns {
   // True when the functions below do not wait.
   [[nodiscard]] bool are_alone() const { return socket_ < 0; }
 
-  // Waits until both processes have set up and this one has its turn. Call it directly before the first frame: other
-  // work here would run while the other process's clock runs.
+  // Waits until both processes are ready and it is this one's turn. Call it directly before the first frame: other work
+  // here would run while the other process is being timed.
   void begin();
 
-  // Call after each frame (or any other unit that both do equally often): hands over when the turn is up.
+  // Call it after each frame (or any other unit that both do equally often): hands over when the turn is over.
   void frame_done();
 
   // Call after the last frame. The first process waits for the second, which is still being timed.
@@ -48,7 +49,7 @@ class Turns {
   int core_ = -1;
   bool is_first_ = false;
   std::uint64_t done_ = 0;
-  std::uint64_t until_ = 0;  // of the second: how many frames the first has done
+  std::uint64_t until_ = 0;  // in the second process: how many frames the first has done
   std::chrono::steady_clock::time_point began_;
 };
 

@@ -59,7 +59,7 @@ void Axis::make_linear(double low, double high) {
   low_ = first * step;
   high_ = (first + steps) * step;
   for (int k = 0; k <= steps; ++k) {
-    // Steps are decimal, so a tick is what its digits say: 0.3 and not 0.30000000000000004.
+    // Computed from the decimal step, so that a tick is what its digits say: 0.3 and not 0.30000000000000004.
     const double exact = (first + k) * step;
     const double value = std::stod(figure(exact, 12) == "0" ? "0" : figure(exact, 12));
     ticks_.push_back({value, tick_label(value)});
@@ -76,7 +76,7 @@ void Axis::make_log(double low, double high) {
   for (int k = first; k <= last; k += stride)
     for (const double factor : {1.0, 2.0, 5.0})
       if (factor == 1.0 || decades < kFewDecades) values.push_back(factor * std::pow(10.0, k));
-  // From the last value at or below the data to the first at or above it.
+  // From the last tick at or below the data to the first at or above it.
   const auto above = std::upper_bound(values.begin(), values.end(), low * (1.0 + 1e-9));
   const auto begin = above == values.begin() ? above : above - 1;
   auto end = std::lower_bound(values.begin(), values.end(), high * (1.0 - 1e-9));

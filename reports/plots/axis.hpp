@@ -16,11 +16,11 @@ struct Tick {
 
 class Axis {
  public:
-  // An axis that holds every finite value (every positive one on a log scale), widened to round numbers. Without any it
-  // goes from 0 to 1 (1 to 10). from_zero also holds 0, on a linear scale.
+  // An axis that contains every finite value (every positive one on a log scale), extended to round numbers. Without
+  // any value it goes from 0 to 1 (1 to 10). from_zero also includes 0, on a linear scale.
   Axis(Scale scale, std::span<const double> values, bool from_zero);
 
-  // Along the axis: 0 at its low end, 1 at its high end; NaN for what has no place (a log scale's zero).
+  // The place along the axis: 0 at its low end, 1 at its high end; NaN for a value without a place (0 on a log scale).
   [[nodiscard]] double share(double value) const;
   [[nodiscard]] double low() const { return low_; }
   [[nodiscard]] double high() const { return high_; }

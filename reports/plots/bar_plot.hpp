@@ -10,7 +10,7 @@ namespace broadside::reports::plots {
 
 struct BarSeries {
   std::string name;
-  std::vector<double> values;  // one per group; not finite = absent, and the bar's place says so
+  std::vector<double> values;  // one per group; not finite = absent, which is written at the bar's place
   std::vector<double> errors;  // half the length of the error bar, one per group; empty or not finite = none
 };
 
@@ -20,7 +20,7 @@ struct BarPlot {
   Scale y_scale = Scale::kLinear;
   std::vector<std::string> groups;
   std::vector<BarSeries> series;
-  std::vector<CrossLine> lines = {};  // of these, those on y
+  std::vector<CrossLine> lines = {};  // only those on y are drawn
 };
 
 std::string svg(const BarPlot& plot, Placement placement = Placement::kFile);

@@ -29,7 +29,7 @@ struct LegendEntry {
   static constexpr int kLineOnly = -2;
 };
 
-// A line across the data with a word beside it: a limit, a change point.
+// A line across the data with a label beside it: a limit, a change point.
 struct CrossLine {
   std::string text;
   double at = 0.0;
@@ -55,15 +55,15 @@ Area area_below(double head, const Axis& y);
 
 void draw_y_axis(Drawing& drawing, const Area& area, const Axis& y, std::string_view label);
 void draw_x_axis(Drawing& drawing, const Area& area, const Axis& x, std::string_view label);
-// A frame alone, with these names under equal parts of it.
+// Draws a frame without ticks, with these names below equal parts of it.
 void draw_x_names(Drawing& drawing, const Area& area, const std::vector<std::string>& names, std::string_view label);
 
-// Lines with no place on their axis are left out; so are all upright ones without an x axis. Labels that would overlap
-// are drawn below each other.
+// Lines outside their axis are left out, and so are all upright lines where there is no x axis. Labels that would
+// overlap are drawn below each other.
 void draw_cross_lines(Drawing& drawing, const Area& area, const std::vector<CrossLine>& lines, const Axis* x,
                       const Axis& y);
 
-// "no data": absence is said in words, never by an empty frame.
+// Writes "no data", because an empty frame would not say that data is absent.
 void draw_absence(Drawing& drawing, const Area& area);
 
 }  // namespace broadside::reports::plots

@@ -23,7 +23,7 @@ std::string styled(std::string_view element, std::string_view style) {
   return "<" + std::string(element) + " class=\"" + std::string(style) + "\"";
 }
 
-// Ends an element that may have a hint, which browsers show beside the pointer.
+// Ends an element, with a hint if it has one; browsers show hints beside the pointer.
 std::string ended(std::string_view element, std::string_view hint) {
   if (hint.empty()) return "/>\n";
   return "><title>" + xml(hint) + "</title></" + std::string(element) + ">\n";
@@ -37,7 +37,7 @@ bool is_finite(Point p) {
   return std::isfinite(p.x) && std::isfinite(p.y);
 }
 
-// FNV-1a: the same picture gets the same id everywhere, and the same rows give the same bytes.
+// FNV-1a: the id is a hash of the content, so the same rows give the same bytes.
 std::string id_of(std::string_view content) {
   std::uint64_t hash = 0xcbf29ce484222325ULL;
   for (const char c : content) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3ULL;

@@ -1,4 +1,4 @@
-// One SVG picture, shape by shape. Every plot is made of these.
+// One SVG picture, drawn shape by shape. Every plot is made with this class.
 #pragma once
 
 #include <string>
@@ -7,8 +7,8 @@
 
 namespace broadside::reports::plots {
 
-// kFile: a file of its own, with its style inside: light or dark as the reader's system is.
-// kInline: part of a page that has plot_style() in its own style, and the report's color variables.
+// kFile: a file that contains its style: light or dark, as the reader's system is.
+// kInline: part of a page that includes plot_style() in its style and defines the report's color variables.
 enum class Placement { kFile, kInline };
 
 enum class Anchor { kStart, kMiddle, kEnd };
@@ -31,7 +31,7 @@ class Drawing {
   void polyline(std::string_view style, const std::vector<Point>& points);
   void polygon(std::string_view style, const std::vector<Point>& corners);
   void rect(std::string_view style, Point corner, double width, double height, std::string_view hint = {});
-  // opacity 0 to 1: for shades of one color that work on light and on dark.
+  // opacity 0 to 1: gives shades of one color that are visible on light and on dark.
   void shaded_rect(std::string_view style, Point corner, double width, double height, double opacity,
                    std::string_view hint);
   // Shape 0 to 3: circle, square, diamond, triangle. They tell series apart where colors cannot be seen.

@@ -10,7 +10,7 @@ namespace broadside::reports::plots {
 namespace {
 
 constexpr double kFaint = 0.06;      // the least value still gets a visible shade
-constexpr double kTextTurns = 0.55;  // darker than this, the figure is written in the paper's color
+constexpr double kTextTurns = 0.55;  // on darker cells the figure is written in the paper's color
 constexpr double kCellGap = 1.5;
 constexpr double kKeyWidth = 150.0;
 

@@ -1,4 +1,4 @@
-// A value over two parameters: cells shaded by it, with the figure in each.
+// A value as a function of two parameters: cells are shaded by the value, with the figure in each.
 #pragma once
 
 #include <string>

@@ -19,7 +19,7 @@ Bins bins_of(std::span<const double> values, std::uint32_t count, Scale scale) {
     high = std::max(high, value);
   }
   if (!(low <= high) || count == 0) return bins;
-  if (low == high) {  // one value alone: a bin around it
+  if (low == high) {  // only one value: a bin around it
     const double room = low == 0.0 ? 0.5 : 0.05 * std::abs(low);
     low -= room;
     high += room;

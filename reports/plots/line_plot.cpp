@@ -10,7 +10,7 @@
 namespace broadside::reports::plots {
 namespace {
 
-// Neighbors in the palette are similar, for stacked bars; curves that cross get colors that are far apart.
+// Neighboring colors of the palette are similar, for stacked bars; curves that cross get colors that differ more.
 constexpr std::array<int, kSeriesColors> kApart{0, 2, 3, 5, 1, 6, 4, 7};
 
 std::string color_of(int curve) {
@@ -21,12 +21,12 @@ std::string mark_style(const Curve& curve, const std::string& color) {
   return (curve.is_hollow ? "hollow l" : "s") + color;
 }
 
-// Colors come again after eight curves, then with the next shape: 32 curves differ.
+// Colors repeat after eight curves, with the next shape: 32 curves can be told apart.
 int mark_of(int curve) {
   return (curve + curve / kSeriesColors) % 4;
 }
 
-// A legend that is longer than a few lines makes the picture taller, not the data smaller.
+// A legend of more than a few lines makes the picture taller and leaves the data its size.
 constexpr double kUsualHead = 110.0;
 
 constexpr std::size_t kMostMarks = 60;  // more would hide the curve
@@ -62,7 +62,7 @@ class Curves {
   Curves(Drawing& drawing, const Area& area, const Axis& x, const Axis& y)
       : drawing_(drawing), area_(area), x_(x), y_(y) {}
 
-  // Each run of frames with a finite band is one polygon.
+  // Each run of consecutive frames with a finite band is one polygon.
   void band(const Curve& curve, const std::string& style) {
     std::vector<Point> upper;
     std::vector<Point> lower;
@@ -73,7 +73,7 @@ class Curves {
       lower.clear();
     };
     for (std::size_t k = 0; k < columns_of(curve).count; ++k) {
-      // Below a log scale there is no place: the band ends at the axis.
+      // Values below a log scale have no place: there the band ends at the axis.
       const double low = std::isfinite(y_.share(curve.low[k])) ? curve.low[k] : y_.low();
       const Point high_point = at(curve.x[k], curve.high[k]);
       if (!std::isfinite(curve.low[k]) || !std::isfinite(high_point.x) || !std::isfinite(high_point.y)) {
@@ -109,7 +109,7 @@ class Curves {
   const Axis& y_;
 };
 
-// Fitted lines take the color of the measured curve before them.
+// A fitted line takes the color of the measured curve before it.
 std::vector<int> colors_of(const LinePlot& plot) {
   std::vector<int> colors;
   int next = 0;

@@ -17,7 +17,7 @@ struct Curve {
   std::vector<double> high = {};
   // A model's line: dashed, without marks, in the color of the curve before it.
   bool is_fitted = false;
-  // Counts less than the others: dashed, with hollow marks, in a color of its own.
+  // Curves that count less than the others: dashed, with hollow marks, in a color of its own.
   bool is_hollow = false;
 };
 

@@ -64,7 +64,7 @@ void draw_model(Drawing& drawing, const Raster& raster) {
   }
 }
 
-// The twelve edges of each box. From the eye, the three edges that meet in its farthest corner lie behind it.
+// Draws the twelve edges of each box. The three edges at the corner that is farthest from the eye are behind the box.
 void draw_boxes(Drawing& drawing, std::span<const core::Box> boxes, const View& view, const Window& window) {
   std::string before;
   std::string behind;

@@ -12,7 +12,7 @@ struct Color {
   std::string_view dark;
 };
 
-// The values of reports/page/report.css; a test holds them together.
+// The colors of reports/page/report.css; a test checks that both are equal.
 constexpr std::array<Color, 13> kColors{{
     {"paper", "#ffffff", "#10161c"},
     {"ink", "#17202a", "#e4eaf0"},

@@ -11,7 +11,7 @@ inline constexpr int kSeriesColors = 8;
 // --fail and --s0 to --s7, as reports/page/report.css defines them.
 std::string plot_style();
 
-// The same with those variables' values, for a file that stands alone.
+// The same with the values of those variables, for a file without a page.
 std::string file_style();
 
 }  // namespace broadside::reports::plots

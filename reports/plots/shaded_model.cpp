@@ -16,7 +16,7 @@ struct Corner {
   double brightness;
 };
 
-// Normals at vertices: the sum over their triangles of twice the area vector, as the eye sees it.
+// Vertex normals as the eye sees them: the sum of twice the area vectors of the triangles at the vertex.
 std::vector<Projected> vertex_normals(const core::Mesh& mesh, const std::vector<Projected>& points) {
   std::vector<Projected> normals(points.size());
   for (const core::Triangle& t : mesh.triangles) {
@@ -34,7 +34,7 @@ std::vector<Projected> vertex_normals(const core::Mesh& mesh, const std::vector<
   return normals;
 }
 
-// Lambert's law with the light at the eye's upper left; a surface turned away is lit as from behind.
+// Lambert's law with the light at the eye's upper left; a surface that faces away from it gets ambient light only.
 double brightness_of(Projected n) {
   const double size = std::sqrt(n.x * n.x + n.y * n.y + n.toward_eye * n.toward_eye);
   if (!(size > 0.0)) return kAmbient;

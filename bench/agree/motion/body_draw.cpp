@@ -17,11 +17,12 @@ using datasets::RandomStream;
 using exact::Point;
 using exact::RigidMotion;
 
-// A body whose box is this much thinner than long is a plate or a needle.
+// A body whose box is thinner than this share of its length is a plate or a needle.
 constexpr double kThinShape = 0.1;
-// A body turns by at most this angle in a step: below half a turn, so that its end shows which way it went.
+// A body turns by at most this angle in a step: less than half a turn, so that its end pose shows which way it turned.
 constexpr double kMostTurn_rad = 2.5;
-// Halvings that bring a body to where it just grazes, and the share by which it then passes or hits.
+// Steps of the bisection that finds the path on which a body just grazes another, and the share by which the final path
+// then misses or hits.
 constexpr int kHalvings = 20;
 constexpr double kGrazing = 1e-4;
 
@@ -117,7 +118,7 @@ MotionTest BodySource::test(std::uint64_t index) const {
   }
   if (test.family == kGrazes) graze(test, beside, reach);
   if (test.family == kTouching) {
-    // From where the arbiter sees them touch, as far as floats can say it.
+    // Starts at the positions where the arbiter sees the bodies touch, as exactly as floats can hold them.
     arbitrate(test);
     a.start.position = to_core(exact::to_point(a.start.position) + test.truth.lower * a.displacement_m);
     b.start.position = to_core(exact::to_point(b.start.position) + test.truth.lower * b.displacement_m);
@@ -127,7 +128,7 @@ MotionTest BodySource::test(std::uint64_t index) const {
   return test;
 }
 
-// Moves B's way sideways until it just touches A, and then a hair more or less.
+// Shifts B's displacement sideways until B just touches A, and then by a hair more or less.
 void BodySource::graze(MotionTest& test, Point beside, double gap_m) const {
   const Point straight = test.b.motion.displacement_m;
   double hits = 0.0;

@@ -1,4 +1,4 @@
-// Moving bodies for the motion study, with the arbiter's brackets.
+// Moving bodies for the motion study, each test with the arbiter's interval for the first touch.
 #pragma once
 
 #include <cstdint>
@@ -13,13 +13,13 @@ namespace broadside::bench {
 
 class BodySource {
  public:
-  // Shapes of `agree --pairs` of that name. mesh: as there, with kMeshes alone.
+  // Shapes as `agree --pairs` draws them for that kind. mesh: as there, used with kMeshes alone.
   static core::Result<BodySource> make(MotionKind kind, std::uint64_t seed, const std::string& mesh);
   static BodySource of_meshes(Meshes meshes, bool are_solid);
 
   // The same kind, seed and index always give the same test.
   [[nodiscard]] MotionTest test(std::uint64_t index) const;
-  // Sets the arbiter's answer of a test whose motions are set.
+  // Computes the arbiter's answer for a test whose motions are set.
   void arbitrate(MotionTest& test) const;
 
   [[nodiscard]] const Meshes& meshes() const { return meshes_; }
@@ -34,7 +34,7 @@ class BodySource {
   Meshes meshes_;
   std::vector<exact::MovingShape> shapes_;
   std::vector<std::uint32_t> general_;
-  std::vector<std::uint32_t> thin_;  // plates and needles; the general ones where there are none
+  std::vector<std::uint32_t> thin_;  // plates and needles; the general shapes where there are none
 };
 
 }  // namespace broadside::bench

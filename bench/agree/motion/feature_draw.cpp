@@ -42,8 +42,8 @@ void draw_all(MovingFeatures& f, RandomStream& random, Vec3d (*draw)(RandomStrea
   for_points(f, [&](Vec3d& p) { p = draw(random); });
 }
 
-// Edges keep one direction, and a vertex moves along the plane of a triangle that only moves along: in the same plane,
-// or beside it.
+// Parallel motions: both edges keep one direction, or a vertex moves in parallel to the plane of a triangle that
+// translates, in that plane or beside it.
 void make_parallel(MovingFeatures& f, RandomStream& random) {
   draw_all(f, random, on_grid);
   const bool shares_plane = random.below(2) == 0;
@@ -53,7 +53,7 @@ void make_parallel(MovingFeatures& f, RandomStream& random) {
     f.end[1] = f.end[0] + along;
     f.start[3] = f.start[2] + length * along;
     f.end[3] = f.end[2] + length * along;
-    // The way between them at both ends lies in one plane with the edges.
+    // The vectors between the edges at the start and at the end lie in one plane with the edges.
     if (shares_plane) f.end[2] = f.end[0] + 0.5 * along - (0.25 * (1 + random.below(4))) * (f.start[2] - f.start[0]);
     if (shares_plane) f.end[3] = f.end[2] + length * along;
     return;
@@ -68,8 +68,8 @@ void make_parallel(MovingFeatures& f, RandomStream& random) {
   f.end[0] = f.end[1] + weight() * u + weight() * v + beside;
 }
 
-// Half way the vertex is on a triangle's edge, or one edge's end on the other edge; then it is moved by the least step
-// of a double, or not at all.
+// At half the step the vertex lies on a triangle's edge, or the end of one edge on the other edge. Then one coordinate
+// is moved by the smallest step of a double, up or down, or not at all.
 void make_grazing(MovingFeatures& f, RandomStream& random) {
   draw_all(f, random, on_grid);
   const auto middle = [&](int k) { return 0.5 * (f.start[k] + f.end[k]); };
@@ -93,8 +93,9 @@ void make_touching(MovingFeatures& f, RandomStream& random) {
   }
 }
 
-// Whole numbers over an odd denominator: few of them are doubles. In half of them the motion ends where the features
-// just touch: a vertex on the plane x + y + z = 1, or one edge's end on the line along (3, 5, 7).
+// Coordinates are whole numbers over an odd denominator, so few of them are doubles. In half of the queries the
+// features just touch where the motion ends: a vertex on the plane x + y + z = 1, or one edge's end on the line along
+// (3, 5, 7).
 exact::RationalFeatures fractions(FeatureKind kind, RandomStream& random) {
   exact::RationalFeatures out;
   out.kind = kind;
@@ -129,7 +130,7 @@ DrawnFeatures draw_features(MotionKind kind, std::uint64_t seed, std::uint64_t i
   DrawnFeatures out;
   MovingFeatures f;
   f.kind = kind == MotionKind::kVertexFace ? FeatureKind::kVertexFace : FeatureKind::kEdgeEdge;
-  // Every other query is a general one.
+  // Every other query is drawn from the general family.
   out.family = static_cast<std::uint8_t>(index % 2 == 0 ? 0 : 1 + (index / 2) % (std::size(kFeatureFamilies) - 1));
   switch (out.family) {
     case 1:

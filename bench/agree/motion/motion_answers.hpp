@@ -24,15 +24,16 @@ core::Result<MotionEngineSpec> parse_motion_engine(const std::string& text);
 
 struct MotionAnswer {
   Asked asked = Asked::kNothing;
-  bool follows = true;   // false: the engine moves bodies along another path, and was not asked
-  float seconds = 0.0F;  // of this one query, the adapter's conversions included
+  bool follows = true;   // false: the engine moves bodies along another path, so it was not asked
+  float seconds = 0.0F;  // of this one query, conversions of the adapter included
   core::FirstTouch found;
   std::array<char, 96> thrown{};  // what the library threw, shortened
 };
 
 struct MotionAnswers {
   std::vector<MotionAnswer> of_test;
-  std::map<std::string, std::uint64_t> words;  // last words of processes that died, or the text of exceptions
+  std::map<std::string, std::uint64_t>
+      words;  // how often each last line of a dead process or exception's text occurred
   std::string build;
 };
 

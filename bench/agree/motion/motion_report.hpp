@@ -1,4 +1,4 @@
-// The motion study for people and for programs.
+// The motion study as tables for people and as JSON for programs.
 #pragma once
 
 #include <map>
@@ -13,13 +13,13 @@ struct MotionStudy {
   std::string label;
   std::string build;
   MotionTable table;
-  std::map<std::string, std::uint64_t> words;  // last words of processes, and what was thrown
-  std::string absent;                          // why there is nothing; empty when there is
+  std::map<std::string, std::uint64_t> words;  // last lines of processes that died, and texts of exceptions
+  std::string absent;                          // why the engine gave no answers; empty when it did
   std::vector<std::string> repeats;            // commands that repeat saved cases
 };
 
-// A line for all queries of each engine and one for each family: verdicts, the share missed, how early, how late, how
-// fast.
+// One line of all queries for each engine, and one line for each family: verdicts, the share of touches missed, how
+// early and how late the answers are, and how fast.
 std::string motion_tables(MotionKind kind, const std::vector<MotionStudy>& studies);
 std::string motion_json(MotionKind kind, const std::vector<MotionStudy>& studies, std::uint64_t seed);
 

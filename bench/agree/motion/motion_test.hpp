@@ -28,27 +28,27 @@ std::span<const std::string_view> families_of(MotionKind kind);
 struct MotionTruth {
   enum class Kind : std::uint8_t { kApart, kTouch, kUndecided };
   Kind kind = Kind::kApart;
-  double lower = 1.0;  // no touch before
-  double upper = 1.0;  // they touch, or overlap, at or before this time
+  double lower = 1.0;  // no touch before this time
+  double upper = 1.0;  // the bodies touch or overlap at this time or before it
   // Whether there is a touch differs between the fractions of a query file and the doubles that engines get.
   bool rounding_decides = false;
 };
 
-// Another process writes it: plain bytes.
+// Plain bytes, because another process writes it.
 struct MotionTest {
   std::uint8_t family = 0;
-  continuous::MovingFeatures features;  // of vertex-face and edge-edge
-  core::MovingBody a;                   // of the others
+  continuous::MovingFeatures features;  // of the kinds vertex-face and edge-edge
+  core::MovingBody a;                   // of the kinds of bodies
   core::MovingBody b;
   MotionTruth truth;
 };
 
 using Meshes = std::vector<std::shared_ptr<const core::Mesh>>;
 
-// By core/exact.
+// Computed exactly, by core/exact.
 MotionTruth truth_of(const continuous::MovingFeatures& features);
 
-// A bound on how fast any point of one body moves against one of the other, m per step.
+// An upper bound on the speed of any point of one body relative to any point of the other, m per step.
 double relative_speed_m(const MotionTest& test, double reach_a_m, double reach_b_m);
 
 }  // namespace broadside::bench

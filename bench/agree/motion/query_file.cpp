@@ -32,7 +32,7 @@ bool is_above_zero(std::string_view text) {
   return is_integer(text) && text[0] != '-' && text.find_first_of("123456789") != std::string_view::npos;
 }
 
-// Empty when the row is good, else what is wrong with it.
+// Splits a line into its cells. Returns what is wrong with the row, or nothing.
 std::string split(std::string_view line, std::array<std::string_view, kColumns>& cells) {
   int count = 0;
   for (std::size_t at = 0; at <= line.size(); ++count) {

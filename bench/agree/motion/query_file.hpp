@@ -1,5 +1,5 @@
-// Files of moving features: csv, eight rows a query (four points at the start, four at the end), each row the
-// numerators and denominators of x, y and z as integers of any length, and then whether there is a touch, 0 or 1.
+// Files of moving features, as CSV. A query has eight rows: its four points at the start, then at the end. A row has
+// the numerators and denominators of x, y and z as integers of any length, and then 0 or 1: whether there is a touch.
 #pragma once
 
 #include <filesystem>
@@ -15,8 +15,8 @@ struct FileQuery {
   bool touches = false;  // as the file says
 };
 
-// Of vertex-face: the vertex and the triangle's corners. Of edge-edge: both ends of one edge, then of the other.
-// Errors name the line.
+// The four points are, for vertex-face, the vertex and the triangle's corners; for edge-edge, both ends of one edge,
+// then those of the other. Errors name the line.
 core::Result<std::vector<FileQuery>> read_query_file(const std::filesystem::path& file, continuous::FeatureKind kind);
 
 core::Status write_query_file(const std::vector<FileQuery>& queries, const std::filesystem::path& file);

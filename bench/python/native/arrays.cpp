@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::string_view kPrefix = "/trace/";
 
-// Float64 states take the place of the float32 ones under the same path.
+// Float64 states hide the float32 states of the same path.
 bool is_hidden(const core::Column& column, std::uint32_t groups) {
   const bool is_wide = (groups & core::bit(core::Group::kWideBodies)) != 0U;
   return is_wide ? column.groups == core::bit(core::Group::kBodies)

@@ -22,15 +22,16 @@ struct HeldFrame {
   std::uint32_t bodies = 0;
 };
 
-// The column of a short path, "body/position" for /trace/body/position; of float64 states where the groups have them.
-// An unknown path is an error that names the nearest known one, an absent group one that says so; both say where.
+// The column of a short path, "body/position" for /trace/body/position; the column of float64 states where the groups
+// have them. An unknown path is an error that names the nearest known one, and an absent group is an error that says
+// so; `where` is part of both.
 const core::Column& column_named(const std::string& path, std::uint32_t groups, const std::string& where);
 // "body/position": the path without "/trace/".
 std::string short_path(const core::Column& column);
 
 pybind11::dtype dtype_of(core::Element element);
 
-// The same array, in which nothing can be written: traces and scenes are immutable.
+// The same array, but not writeable: traces and scenes are immutable.
 pybind11::array read_only(pybind11::array array);
 
 // A read-only array over the rows that the frame has of this column; owner keeps them alive.

@@ -23,7 +23,7 @@ template <typename T>
 using Packed = py::array_t<T, py::array::c_style>;
 using Flags = std::optional<Packed<std::uint8_t>>;
 
-// Calls of one engine take turns: Python's lock is let go while it works.
+// Calls of one engine take turns, because Python's lock is released while it works.
 class HeldBroadPhase {
  public:
   HeldBroadPhase(const std::string& id, const GivenSettings& settings, bool may_abort)
@@ -59,8 +59,8 @@ class HeldBroadPhase {
                           raw);
   }
 
-  // Boxes [count, 6] of the device's memory, read where they lie, after what `stream` was asked for so far; without a
-  // stream they are complete already. Gives address and rows of the pairs, in no order, and the device.
+  // Boxes [count, 6] in the device's memory, read where they lie, after the work that `stream` has so far; without a
+  // stream they must be complete. Returns the address and the rows of the pairs, in no order, and the device.
   py::tuple find_pairs_on_device(std::uint64_t address, std::size_t count, std::optional<std::uint64_t> stream,
                                  const Flags& is_static) {
     auto* const taker = dynamic_cast<core::TakesDeviceBoxes*>(engine_.broad_phase.get());
@@ -82,7 +82,7 @@ class HeldBroadPhase {
   }
 
  private:
-  // One flag a box; none is static where none are given.
+  // One flag for each box; no box is static where no flags are given.
   [[nodiscard]] std::vector<std::uint8_t> flags_of(const Flags& is_static, std::size_t count) const {
     if (!is_static) return std::vector<std::uint8_t>(count, 0);
     if (is_static->ndim() != 1 || static_cast<std::size_t>(is_static->shape(0)) != count)

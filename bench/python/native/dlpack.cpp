@@ -52,7 +52,7 @@ bool has_gaps(const DLTensor& t) {
   return false;
 }
 
-// What a capsule that we gave keeps alive.
+// What a capsule that this module gave out keeps alive.
 struct GivenRows {
   DLManagedTensor managed{};
   std::int64_t shape[2] = {};
@@ -66,7 +66,7 @@ void release(DLManagedTensor* managed) {
   delete static_cast<GivenRows*>(managed->manager_ctx);
 }
 
-// Of a capsule that nobody took.
+// Destroys a capsule that no library took.
 void drop(PyObject* capsule) {
   if (PyCapsule_IsValid(capsule, kName) == 0) return;
   auto* managed = static_cast<DLManagedTensor*>(PyCapsule_GetPointer(capsule, kName));
@@ -130,7 +130,7 @@ py::capsule given_rows(const OwnRows& rows, int memory, int device, const py::ob
   given->managed.deleter = release;
   PyObject* const capsule = PyCapsule_New(&given->managed, kName, drop);
   if (capsule == nullptr) throw py::error_already_set();
-  static_cast<void>(given.release());  // the capsule's, or that of who takes it
+  static_cast<void>(given.release());  // the capsule's, or that of the library that takes it
   return py::reinterpret_steal<py::capsule>(capsule);
 }
 

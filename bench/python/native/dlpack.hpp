@@ -1,4 +1,4 @@
-// Arrays handed over by DLPack: capsules taken and given. The layout is that of DLPack 0.x, which every library speaks.
+// Arrays handed over by DLPack, in both directions. The layout is that of DLPack 0.x, which every library supports.
 #pragma once
 
 #include <pybind11/pybind11.h>
@@ -13,10 +13,10 @@ namespace broadside::bench::python {
 constexpr int kHostMemory = 1;
 constexpr int kCudaMemory = 2;
 
-// An array that another library owns; valid while this lives. By rows, without gaps.
+// An array that another library owns; valid while this object lives. Stored by rows, without gaps.
 class TakenArray {
  public:
-  // Error: no capsule, one that was taken before, or an array with gaps. `what` names it.
+  // Error: not a capsule, a capsule that was taken before, or an array with gaps. `what` names it in the error.
   TakenArray(const pybind11::capsule& capsule, const std::string& what);
   TakenArray(const TakenArray&) = delete;
   TakenArray& operator=(const TakenArray&) = delete;
@@ -32,7 +32,7 @@ class TakenArray {
   void* managed_ = nullptr;
 };
 
-// Where rows of numbers of 32 bits lie, of this library's own memory.
+// Where rows of 32-bit numbers lie in this library's own memory.
 struct OwnRows {
   std::uint64_t address = 0;
   std::int64_t rows = 0;
@@ -41,7 +41,7 @@ struct OwnRows {
   bool is_float = false;       // else whole numbers without a sign
 };
 
-// A capsule for another library to take once; owner lives as long as it holds the rows.
+// A capsule that another library can take once; `owner` lives as long as that library holds the rows.
 pybind11::capsule given_rows(const OwnRows& rows, int memory, int device, const pybind11::object& owner);
 
 }  // namespace broadside::bench::python

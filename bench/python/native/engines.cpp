@@ -21,7 +21,7 @@ namespace py = pybind11;
 namespace broadside::bench::python {
 namespace {
 
-// Calls of one engine take turns: Python's lock is let go while it works.
+// Calls of one engine take turns, because Python's lock is released while it works.
 class HeldDynamics {
  public:
   HeldDynamics(const std::string& id, HeldScene scene, const GivenSettings& settings, bool may_abort)
@@ -46,8 +46,8 @@ class HeldDynamics {
     for (std::uint64_t k = 0; k < count; ++k, ++steps_) take(engine_.dynamics->step(scene_.scene->dt_s));
   }
 
-  // Columns of the frame on the device that it runs on, by path: address, rows, numbers of a row, bytes from row to
-  // row, whether they are floats; and the device.
+  // The columns of the frame on the device that it runs on, by path: address, rows, numbers in a row, bytes from one
+  // row to the next, whether they are floats; and the device.
   py::tuple frame_on_device() {
     auto* const there = dynamic_cast<core::FrameOnDevice*>(engine_.dynamics.get());
     if (there == nullptr)

@@ -7,8 +7,8 @@
 
 namespace broadside::bench::python {
 
-// Of states, confirmed pairs and contacts where the groups have states; else of separations, else of candidate pairs;
-// 0 where they have none of these.
+// The digest of states, confirmed pairs and contacts where the groups have states; else that of separations; else that
+// of candidate pairs; 0 where they have none of these.
 std::uint64_t digest_of(const core::FrameRecord& frame, std::uint32_t groups);
 
 }  // namespace broadside::bench::python

@@ -22,7 +22,7 @@ namespace {
 using core::Column;
 using core::Layout;
 
-// The reader is not thread-safe, and Python's lock is let go while it reads.
+// The reader is not thread-safe, and Python's lock is released while it reads, so calls take turns.
 struct OpenTrace {
   core::TraceReader reader;
   std::mutex mutex = {};
@@ -59,7 +59,7 @@ py::array offsets(OpenTrace& trace, const Column& column) {
   return owned_array(std::move(rows), py::dtype::of<std::uint64_t>(), {count});
 }
 
-// Packs rows of `stride` bytes into rows of the column alone.
+// Copies rows that are `stride` bytes apart to rows that hold this column alone.
 void append_rows(const Column& column, const std::byte* first, std::size_t count, std::size_t stride,
                  std::vector<std::byte>& to) {
   const std::size_t bytes = core::row_bytes(column);

@@ -1,4 +1,4 @@
-// broadside.native.Writer: somebody else's trace, frame by frame, refused where a reader would refuse it.
+// broadside.native.Writer: writes a trace of another engine, frame by frame, and refuses what a reader would refuse.
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
@@ -37,7 +37,7 @@ std::string text_of(const py::dict& given, const char* key) {
   return given.contains(key) ? py::str(given[key]).cast<std::string>() : std::string();
 }
 
-// What the keys say is in broadside/writer.py, which fills all of them.
+// The keys are explained in broadside/writer.py, which fills all of them.
 std::shared_ptr<OpenWriter> create(const std::string& path, const HeldScene& scene, std::uint32_t groups,
                                    const std::map<std::string, std::string>& declaration,
                                    const std::map<std::string, std::string>& notes, const py::dict& given) {
@@ -110,7 +110,7 @@ class FrameFiller {
   std::set<Records> filled_;
 };
 
-// Float32 states beside the float64 ones, as every reader makes them.
+// Adds float32 states beside the float64 ones, as every reader does.
 void narrow(core::FrameRecord& frame) {
   const auto all = [](const auto& from, auto& to) {
     to.clear();
