@@ -15,7 +15,7 @@ import sysconfig
 import zipfile
 from pathlib import Path
 
-# A wheel's dates: the first that a zip file can hold, so that they say nothing.
+# The date of every file in a wheel: the first that a zip file can hold, so that it says nothing.
 EPOCH = (1980, 1, 1, 0, 0, 0)
 
 METADATA = """Metadata-Version: 2.1

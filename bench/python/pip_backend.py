@@ -7,7 +7,7 @@ import sys
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
-PYTHON = "/usr/bin/python3"  # for which ./broadside makes it
+PYTHON = "/usr/bin/python3"  # ./broadside makes the wheel for this one
 
 
 def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):

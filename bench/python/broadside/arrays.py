@@ -21,7 +21,7 @@ def host_array(value, what):
 
 
 def fitted(value, dtype, what):
-    """The same numbers as `dtype`, packed; value itself where it is so. Whole numbers must fit."""
+    """The same numbers as `dtype`, packed; `value` itself where it already is. Whole numbers must fit."""
     array, dtype = host_array(value, what), np.dtype(dtype)
     if array.dtype == dtype:
         return np.ascontiguousarray(array)

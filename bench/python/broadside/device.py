@@ -1,6 +1,6 @@
 """Arrays on a GPU: boxes that are taken where they lie, pairs and states that stay where they were found.
 
-Streams. Boxes are read after everything that their stream was asked for before the call: the stream that
+Streams. Boxes are read after the work that was in their stream before the call. This is the stream that
 __cuda_array_interface__ names; the legacy default stream where it is of version 2, which names none; no stream where it
 names None, and then the boxes must be complete. By DLPack their owner is asked for boxes that are complete on the
 legacy default stream. Pairs and states are complete when the call returns, and any stream may read them. They are the

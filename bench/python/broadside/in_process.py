@@ -36,8 +36,8 @@ class BroadPhase:
         """Pairs [rows, 2] of uint32, sorted, i < j: closed boxes that overlap, touching included; no two static ones.
 
         boxes: [n, 6] float32, min x y z, max x y z, in m; of NumPy or of any library that speaks DLPack on the host.
-        Packed float32 is read where it lies. is_static: [n], true for boxes that never move. A later call of as many
-        boxes is a move of the same bodies, which engines that keep their tree are fast at.
+        Packed float32 is read where it lies. is_static: [n], true for boxes that never move. A later call with as
+        many boxes counts as a move of the same bodies; engines that keep their tree are fast at that.
 
         Boxes on a GPU (CuPy's, torch's, JAX's) are taken where they lie by octree-gpu, and the pairs stay there, in no
         order: DeviceRows. device.py says what is waited for.

@@ -33,7 +33,7 @@ class Answer:
 
 
 def call(*arguments: object, passes: tuple[int, ...] = (0,)) -> Answer:
-    """Runs the program. An exit code that is not in `passes` is the exception of it, with the line that was printed."""
+    """Runs the program. An exit code that is not in `passes` raises its exception, with the line that was printed."""
     command = (path(), *map(str, arguments))
     done = subprocess.run(command, stdin=subprocess.DEVNULL, capture_output=True, text=True, check=False)
     if done.returncode not in passes:

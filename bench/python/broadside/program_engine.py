@@ -98,14 +98,14 @@ def _scene(given):
 
 
 class Served:
-    """The client's idea of an engine, over the user's."""
+    """The user's engine behind the interface that the client expects."""
 
     def __init__(self, cls):
         self.own = cls()
         facts = cls.broadside_facts
         self.id, self.build, self.what, self.declared = (facts[key] for key in ("id", "build", "what", "declared"))
         self.is_exact, self.margin_m = getattr(self.own, "is_exact", True), getattr(self.own, "margin_m", 0.0)
-        self.step_seconds = True  # of the class alone: what packing and the pipe take is told apart from it
+        self.step_seconds = True  # times the class alone: packing and the pipe are counted separately
         for name in ("find_pairs", "step", "read_points", "read_detection", "read_step_pairs"):
             if hasattr(self.own, name):
                 setattr(self, name, getattr(self, f"_{name}", None) or getattr(self.own, name))

@@ -25,7 +25,7 @@ def _engine_arguments(engines):
 
 
 def _scene_argument(scene, folder):
-    """A name as it is; a Scene or a builder as a file in the folder of the run."""
+    """The command's argument for a scene: a name as it is; a Scene or a builder as a file in the run's folder."""
     if isinstance(scene, (Scene, SceneBuilder)):
         path = Path(folder) / "scene.toml"
         scene.save(str(path))

@@ -34,7 +34,7 @@ def _named(name, width):
 
 
 def _step_of_rows(trace, group, rows):
-    """The step of each row. Offsets are the group's whose rows these are."""
+    """The step of each row, from the offsets of the group that has these rows."""
     for path, column in trace.columns.items():
         if path.rpartition("/")[0] == group and column.layout == "offsets":
             offsets = np.asarray(column).astype(np.int64)

@@ -1,8 +1,8 @@
 """Records Rapier under Node: rapier_recorder.py OUT.h5 [FOLDER]. FOLDER has the package in its node_modules.
 
-Without it, the one that `broadside fetch-engine rapier` installed is taken. Another program hands over its states line
-by line, and is recorded here: so any simulator can be that prints numbers. Impulses of friction cannot be read from
-Rapier, so no points are recorded.
+Without it, the one that `broadside fetch-engine rapier` installed is taken. Another program prints its states line by
+line, and this one records them: any simulator that prints numbers can be recorded in this way. Impulses of friction
+cannot be read from Rapier, so no points are recorded.
 """
 import json
 import os
