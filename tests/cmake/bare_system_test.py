@@ -68,7 +68,7 @@ class System:
         remove(self.root)
         self.root.mkdir(parents=True)
         run(["tar", "-xf", bare, "-C", self.root])
-        # How names are resolved is this machine's business.
+        # The bare system resolves names as this machine does.
         shutil.copy("/etc/resolv.conf", self.root / "etc/resolv.conf")
 
     def __enter__(self):
@@ -119,7 +119,7 @@ def from_debian_packages(work, bare, packages, build):
         on_main, on_change = (line.split("#")[0].strip() for line in page.splitlines() if line.startswith("broadside-gate "))
         system.run(GATE.format(on_main=on_main, on_change=on_change))
         from_wheel(system, packages)
-        # What the packages need stays; the program itself comes from an installed tree now.
+        # The packages' dependencies stay; the program itself is now taken from an installed tree.
         system.run("dpkg --purge broadside-dev broadside")
         assert not (system.root / "usr/bin/broadside").exists() and not (system.root / "usr/include/broadside_engine.h").exists()
         run(["cmake", "--install", build, "--prefix", system.root / "usr/local", "--strip"])

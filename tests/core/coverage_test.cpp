@@ -1,4 +1,4 @@
-// Coverage: a law counts as applied when it met something, and once however often it was judged.
+// Coverage: a law counts as applied when it met something to check, and it counts once however often it was judged.
 #include "core/coverage.hpp"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// What is said about a name that is not known.
+// The suggestion for a name that is not known.
 #include "core/nearest_name.hpp"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// Rows survive writing and reading bit by bit, and malformed files are refused with the place named.
+// Rows survive writing and reading bit by bit, and malformed files are refused with a line that names the place.
 #include "core/rows.hpp"
 
 #include <gtest/gtest.h>
@@ -148,7 +148,7 @@ TEST_F(RowsTest, LawPartsAndDeclarationComeBack) {
   EXPECT_EQ(said.parts[0].law, part.law);
 }
 
-// Of builds that knew nothing of laws' kinds, parts and declarations.
+// Verdicts that builds wrote before laws had kinds and parts, and engines declarations.
 TEST_F(RowsTest, VerdictsOfEarlierBuildsAreRead) {
   ASSERT_TRUE(write_verdicts(folder_ / "verdicts.json", {{"x.h5", stamp(), {{.validator = "v"}}}}).ok());
   std::string text = read_whole_file(folder_ / "verdicts.json").value();

@@ -42,7 +42,7 @@ TEST(Springs, E1PrintedDivergesAndTheSoundFormRefusesTheStep) {
   EXPECT_NE(refused.error().line().find("stable only below 0.0138"), std::string::npos) << refused.error().line();
 }
 
-// Below its limit a spring is no fault, however stiff it is.
+// A spring whose step is below its limit breaks no law, however stiff it is.
 TEST(Springs, BelowTheLimitArePassedByEveryLaw) {
   auto scene = datasets::make_scene("springs:hanging");
   ASSERT_TRUE(scene.ok()) << scene.error().line();

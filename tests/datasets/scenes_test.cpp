@@ -145,7 +145,7 @@ TEST(SmallScenes, AreFewBodiesInsideTheirDomainThatVertexProximityCanSee) {
     SCOPED_TRACE(row.pattern);
     const Scene scene = made(std::string(row.example));
     EXPECT_EQ(scene.name, row.example);
-    // Those whose bodies turn are no scenes of the method: tests/datasets/rigid_scenes_test.cpp looks at them.
+    // Scenes whose bodies turn are no scenes of the method: tests/datasets/rigid_scenes_test.cpp looks at them.
     if (scene.motion == core::Motion::kRigid) continue;
     EXPECT_GE(scene.bodies.size(), 1U);
     // Many threads, so that a race would show.

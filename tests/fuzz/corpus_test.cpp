@@ -77,8 +77,8 @@ void damage(std::vector<char>& bytes, std::mt19937& random) {
   }
 }
 
-// BROADSIDE_FUZZ_SEED and BROADSIDE_FUZZ_RUNS (per input) ask for another run or a longer one. The seed determines the
-// input that was read when the process died.
+// BROADSIDE_FUZZ_SEED and BROADSIDE_FUZZ_RUNS (per input) ask for another run or a longer one. If the process dies, the
+// seed tells which damaged input it had read.
 TEST_P(Corpus, LivesThroughDamage) {
   const auto asked = [](const char* name, unsigned usual) {
     const char* text = std::getenv(name);

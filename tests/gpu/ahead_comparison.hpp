@@ -13,7 +13,7 @@
 
 namespace broadside::gpu {
 
-// What the host knows of a step when it is told that the step is done.
+// What the host knows of a step when it learns that the step is done.
 struct StepSeen {
   unsigned long long pairs = 0;
   unsigned long long confirmed = 0;
@@ -103,7 +103,7 @@ inline void expect_same_steps_of_every_start(const core::Scene& scene, std::uint
   }
 }
 
-// Small boxes that nothing pulls.
+// Small boxes without gravity.
 inline core::Scene floating_boxes(std::uint32_t bodies) {
   SceneShape shape;
   shape.bodies = bodies;
@@ -114,8 +114,8 @@ inline core::Scene floating_boxes(std::uint32_t bodies) {
   return scene;
 }
 
-// Bodies apart from each other that fly to one point, where they all are after so many steps: few pairs, then all there
-// are.
+// Bodies that start apart from each other and fly to one point, which all reach after so many steps: few pairs at
+// first, then every pair.
 inline core::Scene flying_together(std::uint32_t bodies, float steps) {
   core::Scene scene = floating_boxes(bodies);
   for (core::Body& body : scene.bodies) {
@@ -125,8 +125,8 @@ inline core::Scene flying_together(std::uint32_t bodies, float steps) {
   return scene;
 }
 
-// Bodies in a lattice, none near another, that all leave the domain over one of its corners after so many steps: three
-// faces each.
+// Bodies in a lattice, none near another, which all leave the domain over one corner after so many steps, so that each
+// meets three faces.
 inline core::Scene flying_out(std::uint32_t bodies, float steps) {
   core::Scene scene = floating_boxes(bodies);
   const float speed_m_s = 9.0F / (steps * scene.dt_s);

@@ -1,5 +1,5 @@
-// Boxes that lie on the GPU give the pairs that boxes of the host give. Their stages run on the host in
-// on_host/device_boxes_on_host_test.cpp; here are real memory and real streams.
+// Boxes in GPU memory give the pairs that the same boxes in host memory give. The stages run on the host in
+// on_host/device_boxes_on_host_test.cpp; this test has real memory and real streams.
 #include <gtest/gtest.h>
 
 #include <algorithm>

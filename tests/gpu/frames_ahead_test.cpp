@@ -1,4 +1,5 @@
-// Frames that are launched before the host has seen the one before are the frames one by one, with a real queue.
+// Frames that are launched before the host has seen the frame before them equal the frames computed one by one, with a
+// real queue.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -35,7 +36,7 @@ TEST_F(FramesAhead, EveryStartAndSolver) {
   expect_same_steps_of_every_start(spheres(100, 5.0F), 200);
 }
 
-// From one kernel to the next larger one, and more bodies than threads.
+// Numbers of bodies around those at which a larger kernel is chosen, and more bodies than threads.
 TEST_F(FramesAhead, OfEveryKernel) {
   for (const std::uint32_t bodies : {1U, 512U, 600U, 5000U}) {
     SCOPED_TRACE(bodies);
@@ -73,7 +74,7 @@ TEST_F(FramesAhead, BuffersOfMoreBodiesGrowInTheMiddle) {
   expect_growth(2500);
 }
 
-// Each abort is a race of the host with the frames that it has launched already.
+// Each time a frame is aborted, the host races with the frames that it has launched already.
 TEST_F(FramesAhead, BuffersGrowAgainAndAgain) {
   const core::Scene scene = flying_together(250, 10.0F);
   for (int k = 0; k < 200; ++k) EXPECT_GT(expect_same_steps(scene, boxes_alone(), 14), 0U) << "run " << k;
@@ -95,7 +96,8 @@ TEST_F(FramesAhead, EndWhereTheyAreToldTo) {
   }
 }
 
-// Two at once, of few bodies: blocks of either wait for all of theirs, and none may wait for room that the other has.
+// Two pipelines at once, with few bodies: the blocks of each wait for all blocks of that pipeline, and must not wait
+// for room that the other one holds.
 TEST_F(FramesAhead, OfTwoPipelinesAtOnce) {
   const core::Scene scene = spheres(60, 4.0F);
   constexpr std::uint64_t kFrames = 3000;

@@ -29,7 +29,7 @@ std::vector<Pair> all_pairs(const std::vector<Box>& boxes, const std::vector<std
   return pairs;
 }
 
-// The search among many boxes, without and with bins, for however few.
+// The search for many boxes, without bins and with them, however few boxes there are.
 constexpr std::uint32_t kNever = 1U << 30;
 PairFinderOptions among_many(std::uint32_t least_for_bins) {
   return {Broad::kTree, core::Variant::kSound, 0.25F, 50, 50, least_for_bins};
@@ -98,7 +98,7 @@ TEST_F(PairFinderTest, Uniform) {
     }));
 }
 
-// Enough boxes for each search to be at home, and for several bins; two dense heaps in a wide world.
+// Enough boxes that each search is at its usual size, and several bins are used; two dense heaps in a wide world.
 TEST_F(PairFinderTest, SearchesAgreeOnManyBoxes) {
   const std::vector<Box> boxes = boxes_of(150000, [](Dice& dice, std::uint32_t i) {
     const float half = i % 100 == 0 ? 4.0F * dice.next() : 0.4F;

@@ -65,7 +65,7 @@ inline std::shared_ptr<core::Mesh> box_mesh(core::Vec3 half) {
 
 struct SceneShape {
   std::uint32_t bodies = 60;
-  float cube_m = 4.0F;  // bodies start within
+  float cube_m = 4.0F;  // side of the cube in which bodies start
   float speed_m_s = 4.0F;
   float gravity_m_s2 = 9.81F;
   std::uint32_t static_every = 0;  // every so many bodies one is static; 0 = none

@@ -56,9 +56,9 @@ inline std::string first_difference(const core::FrameRecord& p, const core::Fram
   return "nothing that is recorded";
 }
 
-// Steps both for so many frames; ends at the first frame that differs. Every `full_every` frames everything is read
-// back, otherwise the digest alone. Returns all contacts and points of the frames that were read in full, so that a
-// test can tell that something happened.
+// Steps both pipelines for so many frames; ends at the first frame that differs. Every `full_every` frames everything
+// is read back, otherwise the digest alone. Returns the number of contacts and points in the frames that were read in
+// full, so that a test can tell that something happened.
 inline std::uint64_t compare_pipelines(const core::Scene& scene, core::Dynamics& subject, core::Dynamics& twin,
                                        int frames, int full_every = 10) {
   EXPECT_TRUE(core::check_scene(scene).ok()) << core::check_scene(scene).error().line();

@@ -66,7 +66,7 @@ TEST_F(Twin, EveryLevelFromTheTree) {
   }
 }
 
-// Without cells, fine spheres in each other: a few pairs, whose searches are handed over to the whole grid.
+// Without cells, for fine spheres in each other: a few pairs, whose searches are handed over to the whole grid.
 TEST_F(Twin, LongSearchesThatTheGridShares) {
   SceneShape shape;
   for (const std::uint32_t bodies : {2U, 9U, 15U}) {
@@ -125,7 +125,7 @@ TEST_F(Twin, StaticBodies) {
   SceneShape shape;
   shape.static_every = 3;
   EXPECT_GT(compare(thrown({bumpy_sphere(12, 0.5F)}, shape), {{"broad", "brute"}}, 300), 0U);
-  // Swapped masses move them, which is what that form shows.
+  // Static bodies are moved because of the swapped masses, which is how that form shows.
   EXPECT_GT(compare(thrown({bumpy_sphere(12, 0.5F)}, shape), {{"variant", "printed-E3"}}, 300), 0U);
   EXPECT_GT(compare(thrown({bumpy_sphere(12, 0.5F)}, shape), {{"solver", "jacobi"}}, 300), 0U);
   shape.static_every = 1;
@@ -138,7 +138,7 @@ TEST_F(Twin, Springs) {
   EXPECT_GT(compare(scene, {{"broad", "brute"}}, 300), 0U);
 }
 
-// Around the numbers of bodies where the start changes its shape: of warps, of a ring's half, of 32.
+// Numbers of bodies around those at which the start changes: that of the warps, half a ring, and 32.
 TEST_F(Twin, FewBodiesOfEveryNumber) {
   for (const std::uint32_t bodies : {2U, 3U, 31U, 32U, 64U, 65U, 91U, 92U, 129U, 364U, 365U, 511U, 512U, 513U}) {
     SCOPED_TRACE(bodies);
@@ -148,7 +148,8 @@ TEST_F(Twin, FewBodiesOfEveryNumber) {
   }
 }
 
-// 80 bodies at one point are 3160 contacts of one clique: as many waits of each for each as there can be.
+// 80 bodies at one point have 3160 contacts, all of which conflict: no other case makes contacts wait for each other as
+// often.
 TEST_F(Twin, AllAtOnePoint) {
   SceneShape shape;
   shape.bodies = 80;
@@ -158,7 +159,7 @@ TEST_F(Twin, AllAtOnePoint) {
   EXPECT_GT(compare(scene, {{"broad", "brute"}}, 40), 0U);
 }
 
-// Above the size of brute force and of one block: the hashed octree, and every stage by the whole grid.
+// More bodies than brute force and one block take: the hashed octree, and every stage by the whole grid.
 TEST_F(Twin, ThousandsOfBodiesOfManySizes) {
   SceneShape shape;
   shape.bodies = 5000;

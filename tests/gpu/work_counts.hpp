@@ -1,4 +1,4 @@
-// What the GPU's engines count of their work, for tests on the host and on a GPU: the same figures on both.
+// What the GPU's engines count of their work. Tests on the host and on a GPU use the same figures.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -20,7 +20,7 @@ namespace broadside::gpu {
 using tests::Counts;
 using tests::counts_of;
 
-// Of so many frames. The subject has to offer that.
+// Counts of so many frames. The subject must offer counting.
 inline Counts counts_of(core::Dynamics& subject, const core::Scene& scene, int frames) {
   dynamic_cast<core::CountsWork&>(subject).count_work();
   EXPECT_TRUE(subject.load(scene).ok());
@@ -35,11 +35,11 @@ inline Counts counts_of(core::BroadPhase& subject, const std::vector<core::Box>&
   return counts_of(subject);
 }
 
-// Work of three frames of 40 thrown spheres, and of 2500 boxes. Each was counted on the host, where what it stands for
-// has closed forms in other tests; a GPU has to count the same.
+// Work of three frames of 40 thrown spheres, and of 2500 boxes. Each figure was counted on the host; other tests check
+// the host's counts against closed forms. A GPU has to count the same.
 struct WorkRow {
   std::string_view broad;   // as the setting; "hash" = hash-gpu
-  std::string_view levels;  // of dynamics; empty: of the broad phase alone
+  std::string_view levels;  // of dynamics; empty: the broad phase alone is counted
   std::uint64_t broad_tests, broad_nodes, level_tests;
 };
 

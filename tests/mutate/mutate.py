@@ -85,7 +85,7 @@ class Scratch:
         return run(["cmake", "--build", "build/cpu", "-j", str(self.jobs), "--target", *target.split()], self.root)
 
     def passes(self, tests):
-        """Whether all of these tests pass, and the name of the first that fails. None were found: ValueError."""
+        """Whether all of these tests pass, and the name of the first that fails. ValueError: there are none."""
         try:
             answer = run(["ctest", "--test-dir", "build/cpu", "-R", tests, "-LE", "^gpu$", "--stop-on-failure"], self.root,
                          timeout=SECONDS_OF_TESTS)
@@ -98,7 +98,7 @@ class Scratch:
         return answer.returncode == 0, failed[0] if failed else ""
 
     def judge(self, change):
-        """(word, what was seen) of one change; the file is as it was afterwards."""
+        """The outcome (word, what was seen) of one change. The file is restored afterwards."""
         path = self.root / change.file
         before = path.read_text(encoding="utf-8")
         path.write_text(change.made_in(self.root), encoding="utf-8")

@@ -26,7 +26,7 @@ def record(program, folder, scene, frames):
 
 
 def interpreter_with(*modules):
-    """The first Python that has all of them: this one, or the system's."""
+    """The first Python that has all of these modules: this one, or the system's."""
     for python in (sys.executable, "/usr/bin/python3"):
         if shutil.which(python) and subprocess.run([python, "-c", f"import {', '.join(modules)}"], capture_output=True).returncode == 0:
             return python

@@ -14,7 +14,7 @@ namespace broadside {
 using core::Box;
 using core::Pair;
 
-// The law, written out a second time: closed intervals meet on all three axes.
+// The overlap rule, written out a second time: closed intervals meet on all three axes.
 inline bool meet(const Box& a, const Box& b) {
   for (int axis = 0; axis < 3; ++axis)
     if (std::max(a.min[axis], b.min[axis]) > std::min(a.max[axis], b.max[axis])) return false;

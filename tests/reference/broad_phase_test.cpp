@@ -37,7 +37,7 @@ struct BroadPhaseSubject {
   // Empty, or the library's known defect (reference/README.md): it loses boxes that only touch, or that change size.
   std::string loses_touching = {};
   std::string breaks_on_resize = {};
-  // Boxes that are loaded in seconds.
+  // The most boxes that this engine loads within seconds.
   std::size_t most_boxes = 100'000;
 };
 
@@ -140,7 +140,7 @@ class BroadPhases : public testing::TestWithParam<BroadPhaseSubject> {
   core::Engine engine_ = broad_phase_engine(GetParam());
 };
 
-// Load is not timed. Bullet's engines found all pairs in it, and a race of one frame charged them for none.
+// Load is not timed. Once, Bullet found all pairs in it, and a race of one frame charged nothing for them.
 TEST_P(BroadPhases, LoadFindsNoPair) {
   std::mt19937 random(23);
   const std::vector<Box> boxes = random_boxes(random, 300, 2.0F, 0.6F);
@@ -229,7 +229,7 @@ TEST_P(BroadPhases, LineAndPlane) {
   for (int k = 0; k < 144; ++k)
     plane.push_back(cube(0.75F * static_cast<float>(k % 12), 0, 0.75F * static_cast<float>(k / 12), 1));
   load(line, all_moving(line.size()));
-  EXPECT_EQ(find().pairs.size(), 99U);  // each only its next: 2 * 0.75 > 1
+  EXPECT_EQ(find().pairs.size(), 99U);  // each overlaps only the next one: 2 * 0.75 > 1
   load(plane, all_moving(plane.size()));
   EXPECT_EQ(find().pairs.size(), 2U * 12U * 11U + 2U * 11U * 11U);  // sides and diagonals of a 12 x 12 lattice
 }
@@ -253,8 +253,8 @@ TEST_P(BroadPhases, TwoThousandRandomBoxes) {
   expect_exact(boxes, is_static);
 }
 
-// A long flat world, so that the sweep along x is short. Of 5e9 pairs 1.25 m / 6000 m overlap along x, and about 0.29
-// by 0.29 of these across: some 80,000.
+// A long flat world, so that the sweep along x is short. Of 5e9 pairs a share of 1.25 m / 6000 m overlap along x, and
+// about 0.29 by 0.29 of these along the other two axes: some 80,000.
 TEST_P(BroadPhases, HundredThousandBoxesSlow) {
   static const std::vector<Box> boxes = [] {
     std::mt19937 random(100000);
@@ -275,7 +275,7 @@ TEST_P(BroadPhases, HundredThousandBoxesSlow) {
   load(some, all_moving(count));
   PairSet set = find();
   expect_well_formed(set, count);
-  // Of so many boxes some touch by chance.
+  // Among so many boxes some touch by chance.
   std::vector<Pair> wanted = expected;
   std::erase_if(wanted, [&](const Pair& p) { return p.j >= count; });
   if (!GetParam().loses_touching.empty()) {
@@ -283,7 +283,7 @@ TEST_P(BroadPhases, HundredThousandBoxesSlow) {
     std::erase_if(set.pairs, touches);
     EXPECT_GT(std::erase_if(wanted, touches), 0U) << "nothing to lose: compare them all";
   }
-  // The message for sets of this size would fill pages.
+  // If a set of this size were printed, the message would fill pages.
   EXPECT_EQ(set.pairs.size(), wanted.size());
   EXPECT_TRUE(set.pairs == wanted);
 }
@@ -314,7 +314,7 @@ TEST_P(BroadPhases, MovingTeleportingAndResizingBoxes) {
   }
 }
 
-// Some engines fix their world at load.
+// Some engines fix the bounds of their world at load.
 TEST_P(BroadPhases, BoxesThatLeaveTheLoadedWorld) {
   std::vector<Box> boxes{cube(0, 0, 0, 1), cube(2, 2, 2, 1), cube(4, 0.5F, 0.5F, 1)};
   load(boxes, all_moving(3));

@@ -18,8 +18,8 @@ namespace {
 
 using core::Vec3;
 
-// B, a mesh that ends 0.25 m below its origin, above the upper face of box A, both turned by q. Of the returned: share
-// of normals that are off by more than a degree; the engine's hits.
+// B is a mesh that ends 0.25 m below its origin. It lies above the upper face of box A, and both are turned by q.
+// Returns the share of normals that are off by more than a degree, and the engine's hits.
 struct Seen {
   int wrong = 0;
   int wrong_distance = 0;

@@ -39,7 +39,7 @@ void PrintTo(const ClosedFormSubject& subject, std::ostream* out) {
 std::vector<ClosedFormSubject> closed_form_subjects() {
   return {
       {"exact_shapes", reference::exact_shapes_row},
-      // Its iterations stop at 1e-6 m of the squared distance's change; seen: 1e-5 m, and a degree.
+      // Its iterations stop at a change of 1e-6 m of the squared distance; seen: 1e-5 m, and a degree.
       {"fcl_shapes", reference::fcl_shapes_row, {}, 1e-4, 0.999},
       {"fcl_shapes_indep", reference::fcl_shapes_row, {{"solver", "indep"}}, 1e-4, 0.999, true, true, true},
       {"fcl_shapes_collide", reference::fcl_shapes_row, {{"query", "collide"}}, 1e-4, 0.999},

@@ -23,10 +23,10 @@ struct DynamicsSubject {
   std::string name;
   core::EngineRow (*row)();
   std::map<std::string, std::string> settings = {};
-  // Moves by semi-implicit Euler to float32's rounding, and shows pairs and boxes. Others move between that and
-  // explicit Euler, as every one-step method does, and show what they say.
+  // Moves by semi-implicit Euler to within float32's rounding, and records pairs and boxes. Other engines may move by
+  // anything between that and explicit Euler, as every one-step method does, and record what they declare.
   bool is_method_like = false;
-  std::size_t most_bodies = 100'000;  // beyond that its memory or its time ends
+  std::size_t most_bodies = 100'000;  // more bodies need too much memory or time
 };
 
 void PrintTo(const DynamicsSubject& subject, std::ostream* out) {
@@ -42,14 +42,14 @@ std::vector<DynamicsSubject> dynamics_subjects() {
       {"bullet_world_margin", reference::bullet_world_row, {{"margin", "bullet"}}, true},
       {"ode_world", reference::ode_world_row},
       {"ode_world_dantzig", reference::ode_world_row, {{"solver", "dantzig"}}},
-      // Matrices of all contacts by all coordinates.
+      // Builds matrices of all contacts by all coordinates.
       {"mujoco_world", reference::mujoco_world_row, {}, false, 500},
       {"mujoco_world_rk4", reference::mujoco_world_row, {{"integrator", "rk4"}}, false, 500},
-      // A skeleton a body.
+      // Builds a skeleton for each body.
       {"dart_world", reference::dart_world_row, {}, false, 1000},
   };
   all = tests::with_unlisted(all, "dynamics");
-  // Cubes among other bodies are what Simbody has no contact for; rigid_worlds_test has its scenes.
+  // Simbody has no contact between a cube and another body; rigid_worlds_test has scenes that it supports.
   std::erase_if(all, [](const DynamicsSubject& s) {
     const core::EngineRow row = s.row();
     return s.name == "simbody_world" || (row.absent != nullptr && !row.absent().empty());
@@ -211,8 +211,8 @@ TEST_P(DynamicsEngines, TouchingBodiesAtRestStayAtRest) {
   }
 }
 
-// A small cube wholly inside a large one, off its center: whatever an engine does with it, states stay finite, momentum
-// is kept, and the two are reported as a pair.
+// A small cube wholly inside a large one, off its center. Whatever an engine does with the two, states stay finite,
+// momentum is kept, and the two are reported as a pair.
 TEST_P(DynamicsEngines, AContainedBodyIsAPairAndStaysFinite) {
   core::Scene scene = scene_with_gravity();
   scene.gravity_m_s2 = {};

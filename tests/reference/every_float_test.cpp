@@ -60,7 +60,7 @@ TEST_P(EveryFloat, GivesExactlyTheOverlappingPairs) {
 
 TEST_P(EveryFloat, GivesThemOfMoreBoxesThanABucketHoldsSlow) {
   for (const BoxFamily& family : kBoxFamilies) {
-    // Nearly all pairs overlap there: forty million of them.
+    // Nearly all pairs overlap in these families: forty million of them.
     if (family.name == "signed zeros and subnormals" || family.name == "at the ends of floats") continue;
     const BoxCase c = make_case(family, 9000, 4);
     const std::vector<core::Pair> expected = every_pair(c);

@@ -23,8 +23,8 @@ TEST_P(NarrowPhaseCases, OneBodyHasNoPair) {
   EXPECT_FALSE(phase().measure(std::vector<core::Pair>{{0, 1}}, std::vector<Pose>(1)).ok());
 }
 
-// At touch the sign is noise, so it is not required. But the answer must be near zero, or no number where the engine
-// says that of bodies apart.
+// At touch the sign of the distance is noise, so none is required. But the answer must be near zero, or NaN where the
+// engine gives that for bodies apart.
 TEST_P(NarrowPhaseCases, TouchingFacesAreNearZero) {
   if (GetParam().name == "fcl_shapes_indep")
     GTEST_SKIP() << "FCL's assert ends the process at touch (reference/README.md)";
@@ -48,7 +48,7 @@ TEST_P(NarrowPhaseCases, FarAwayIsFar) {
   EXPECT_NEAR(s.normal.x, -1.0, 1e-4);
 }
 
-// The poses of the call are used, not those of load nor those of the call before.
+// Bodies are measured at the poses of this call, not at those of load or of the call before.
 TEST_P(NarrowPhaseCases, MovedBodiesAreMeasuredWhereTheyAre) {
   const core::Mesh cube = box_mesh({0.5F, 0.5F, 0.5F}, 1);
   ASSERT_TRUE(phase().load(scene_of({cube, cube})).ok());
@@ -74,7 +74,7 @@ TEST_P(NarrowPhaseCases, RemovedBodiesAndPairsAreGone) {
   EXPECT_FALSE(phase().measure(std::vector<core::Pair>{{0, 2}}, std::vector<Pose>(2)).ok()) << "body 2 is gone";
 }
 
-// Cubes in a row, one meter and an eighth apart; each with its next.
+// Cubes in a row, one meter and an eighth apart; each is paired with the next.
 TEST_P(NarrowPhaseCases, HundredThousandPairsSlow) {
   constexpr std::uint32_t kPairs = 100'000;
   core::Scene scene = scene_of({box_mesh({0.5F, 0.5F, 0.5F}, 1)});

@@ -52,7 +52,7 @@ TEST_P(NarrowPhases, EdgeToCrossedEdge) {
 }
 
 TEST_P(NarrowPhases, SpheresAlongAnAxis) {
-  // Both lie in their unit balls and have a vertex where the balls are nearest.
+  // Both meshes lie in their unit balls, and have a vertex where the balls are nearest to each other.
   const core::Mesh sphere = sphere_mesh(3);
   const Separation s = measure({sphere, sphere}, {{{0, 0, 0}, {}}, {{0, 2.5F, 0}, {}}});
   expect_apart(s, 0.5);
@@ -144,7 +144,7 @@ TEST_P(NarrowPhases, RandomBoxesWithParallelAxes) {
       is_nested = is_nested && offset <= std::abs(static_cast<double>(halves[i][axis]) - halves[j][axis]);
     }
     const Separation& s = found.value()[k];
-    // Within 1e-4 m of touching nothing is judged.
+    // Poses within 1e-4 m of touching are not judged.
     if (squared > 1e-8) {
       ++apart;
       if (GetParam().tells_distance) {

@@ -109,8 +109,8 @@ double energy_of_cube(core::WideVec3 v, core::WideVec3 w) {
   return 0.5 * (v.x * v.x + v.y * v.y + v.z * v.z) + (w.x * w.x + w.y * w.y + w.z * w.z) / 12.0;
 }
 
-// Newton's restitution with friction adds energy to a cube that lands askew while it spins. What a heavy ball far away
-// lost in the same step used to pay for it.
+// Newton's restitution with friction adds energy to a cube that lands askew while it spins. Once, energy that a heavy
+// ball far away lost in the same step made up for that gain.
 TEST(PlainRigid, NoBodyGainsWhatOthersLoseInTheSameStep) {
   for (int k = 0; k < 64; ++k) {
     const float angle = 0.1F * static_cast<float>(k);

@@ -26,7 +26,8 @@ struct RigidWorldSubject {
   core::EngineRow (*row)();
   std::map<std::string, std::string> settings = {};
   double rounding = 1e-12;  // of sums over a few hundred steps in its precision, relative
-  // Bullet brakes bodies before they touch, and what is left of a slow impact has no restitution.
+  // Set to false for Bullet, which brakes bodies before they touch, so that the rest of a slow impact has no
+  // restitution.
   bool keeps_restitution = true;
 };
 
@@ -34,7 +35,7 @@ void PrintTo(const RigidWorldSubject& subject, std::ostream* out) {
   *out << subject.name;
 }
 
-// Those that this build has.
+// The subjects that this build has.
 std::vector<RigidWorldSubject> rigid_world_subjects() {
   std::vector<RigidWorldSubject> all{
       {"bullet", reference::bullet_world_row, {}, 1e-4, false},
@@ -154,8 +155,8 @@ TEST_P(RigidWorlds, FreeFallGainsGravity) {
   EXPECT_EQ(frames.back().time_s, 0.5);
 }
 
-// v = (g + F / m) t and w = T t / I of a ball, with a force and a torque in the world and others in the body's axes,
-// which do not turn from where they were: the spin is about the torques' own axis.
+// For a ball, v = (g + F / m) t and w = T t / I, with a force and a torque in the world and others in the body's axes.
+// The latter keep their direction, because the spin is about the torques' own axis.
 TEST_P(RigidWorlds, AWrenchPushesAndTurns) {
   core::Mesh ball = datasets::sphere_mesh(0.5, 8).value();
   core::Scene scene = one_body_scene(std::make_shared<const core::Mesh>(std::move(ball)), 1.0F / 64.0F);
@@ -172,7 +173,8 @@ TEST_P(RigidWorlds, AWrenchPushesAndTurns) {
   EXPECT_NEAR(spin(frames.back(), 0).x, 0.0, near);
 }
 
-// Euler's equations of the free brick of RIGID 6, by small Runge-Kutta steps of this test's own: w in body axes.
+// Euler's equations for the free brick of RIGID 6, solved by small Runge-Kutta steps of this test's own; w is in body
+// axes.
 WideVec3 exact_spin(double seconds) {
   // 10 kg of 0.1 x 0.4 x 0.9 m.
   const std::array<double, 3> moment{10.0 / 12 * (0.16 + 0.81), 10.0 / 12 * (0.01 + 0.81), 10.0 / 12 * (0.01 + 0.16)};
@@ -185,7 +187,7 @@ WideVec3 exact_spin(double seconds) {
     return Spin{w[0] + s * r[0], w[1] + s * r[1], w[2] + s * r[2]};
   };
   constexpr double kStep = 1e-4;
-  // The scene's floats.
+  // The initial values, as the scene has them in float32.
   Spin w{0.1F, 5.0F, 0.1F};
   for (int k = 0; k < static_cast<int>(std::lround(seconds / kStep)); ++k) {
     const Spin a = rate(w);
@@ -215,7 +217,8 @@ TEST_P(RigidWorlds, AFreeBrickTurnsAsEulersEquationsSay) {
     EXPECT_LT(coarse, 5.0 / 1024 / 1024);  // second order in h = 1/1024 s, of a spin of 5 rad/s
     return;
   }
-  // First order: with half the step half the error, or less. Without the gyroscopic torque it would be the spin itself.
+  // First order: half the step gives half the error, or less. Without the gyroscopic torque the error would be as large
+  // as the spin.
   EXPECT_LT(coarse, 0.1 * 5.0);
   EXPECT_LT(fine, std::max(0.6 * coarse, 1e-4));
 }
@@ -242,7 +245,7 @@ TEST_P(RigidWorlds, TheFloorCarriesTheWeightOfARestingBox) {
       moment_x += p.impulse.y * p.point.x;
       moment_z += p.impulse.y * p.point.z;
     }
-  // m g h a step; engines that jitter give and take within a few steps.
+  // m g h a step; for engines that jitter, the excess and the lack cancel within a few steps.
   EXPECT_NEAR(carried / 256, 2.0 * 8.0 / 128, 0.01 * 2.0 * 8.0 / 128);
   EXPECT_NEAR(moment_x / carried, 0.0, 0.01) << "the weight acts below the center";
   EXPECT_NEAR(moment_z / carried, 0.0, 0.01);
@@ -305,7 +308,7 @@ TEST_P(RigidWorlds, ABallBouncesAsTheSceneSaysOrTheCardDoes) {
     const bool has_dissipation = fact.engine.starts_with("dissipation");
     EXPECT_LT(fastest, has_dissipation ? 0.75 : 0.51);
     if (!GetParam().keeps_restitution) return;
-    // A dissipation meets e to first order of c v = 1/2, so within its square.
+    // The dissipation matches e only to first order in c v = 1/2, so the error is within its square.
     EXPECT_NEAR(fastest, has_none ? 0.0 : 0.5, has_none || has_dissipation ? 0.25 : 0.01);
     return;
   }
@@ -316,7 +319,7 @@ TEST_P(RigidWorlds, ABallBouncesAsTheSceneSaysOrTheCardDoes) {
 TEST_P(RigidWorlds, ABodySpinsAboutItsCenterOfMass) {
   core::Scene scene = one_body_scene(shifted_box(0.5, 0.25, 1, {0.75F, 0.125F, 0}), 1.0F / 256.0F);
   if (GetParam().name.starts_with("dart") || GetParam().name == "simbody") {
-    // Their shapes lie about the origin; the scene gives the center instead.
+    // The shapes of these engines must lie about the origin, so the scene gives the center of mass instead.
     scene.meshes = {shifted_box(0.5, 0.25, 1)};
     scene.mass_properties = {{{0.125, 0, 0}, {0.1, 0.2, 0.15, 0, 0, 0}}};
   }

@@ -1,4 +1,4 @@
-// A library that throws loses its own cell and nothing else: the exception becomes one clear error.
+// When a library throws, its own cell is lost and nothing else: the exception becomes one clear error.
 #include "reference/vendor_call.hpp"
 
 #include <gtest/gtest.h>

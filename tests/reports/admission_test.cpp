@@ -102,7 +102,7 @@ TEST(Admission, NothingButNotApplicableProvesNothing) {
   expect_refused(rows, "nothing was proven");
 }
 
-// An engine that moves nothing breaks no other law of a scene in which nothing has to move.
+// An engine that moves nothing breaks no other law in a scene in which nothing has to move.
 TEST(Admission, AnEngineThatMovesBodiesHasToProveAMotion) {
   core::RunRows rows = proven();
   rows.verdicts[0].is_simulation = true;
@@ -116,7 +116,7 @@ TEST(Admission, AnEngineThatMovesBodiesHasToProveAMotion) {
   expect_refused(rows, "proven (ballistic: tied no body that moved to forces)");
   verdict.moved = 1;
   EXPECT_TRUE(admit(rows.samples[0], rows).is_admitted);
-  // A law that judges anything else proves no motion, whatever it counts.
+  // A law that does not tie motion to forces proves no motion, however often it was applied.
   verdict.ties_motion_to_forces = false;
   EXPECT_FALSE(admit(rows.samples[0], rows).is_admitted);
 }

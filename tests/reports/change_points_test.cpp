@@ -63,7 +63,7 @@ TEST(ChangePoints, UpAndDownAgainAreTwo) {
   EXPECT_EQ(found[1].index, 35U);
 }
 
-// A counter has no noise at all: any lasting step is one.
+// A counter has no noise: any lasting step is a change point.
 TEST(ChangePoints, ACounterStepsExactly) {
   std::vector<double> values(8, 1000.0);
   values.insert(values.end(), 4, 1001.0);
@@ -82,8 +82,8 @@ TEST(ChangePoints, OneBadNightIsNoChange) {
   EXPECT_TRUE(change_points(std::vector<double>{1, 9}).empty());
 }
 
-// The largest of many splits is tested as if it were the only one, so more than 0.1 % of pure noise is split; at most 5
-// % is what is required.
+// The largest of many splits is tested as if it were the only one, so more than 0.1 % of series of pure noise are
+// split; the requirement is at most 5 %.
 TEST(ChangePoints, PureNoiseIsSeldomSplit) {
   int split = 0;
   for (std::uint64_t seed = 100; seed < 300; ++seed) split += change_points(noise(50, 1.0, 0.03, seed)).empty() ? 0 : 1;

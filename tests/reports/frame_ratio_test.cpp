@@ -7,7 +7,7 @@
 namespace broadside::reports {
 namespace {
 
-// Frames that grow longer along the run, on a core that is 1.7 times slower every now and then for both.
+// Frames that grow longer along the run, on a core that is now and then 1.7 times slower, for both builds alike.
 std::vector<double> run_of(std::size_t frames, double factor) {
   std::vector<double> seconds;
   for (std::size_t k = 0; k < frames; ++k)

@@ -39,9 +39,9 @@ class Machine {
   double phase_ = uniform() * 6.0;
 };
 
-// Two builds whose whole processes alternate, ABBA, as compare --interleave runs programs that know no turns, as rows
-// of one cell each: fifteen processes of each, and where they do not tell thirty and sixty, with intervals that allow
-// for three looks.
+// Two builds whose whole processes alternate, ABBA, as compare --interleave does for programs without turns. Gives rows
+// of one cell each: fifteen processes of each build, and where these do not decide, thirty and then sixty, with
+// intervals that allow for three looks.
 Speed interleaved(std::uint64_t seed, double factor, double spread = kQuiet) {
   constexpr ComparisonOptions kThreeLooks{.looks = 3};
   Machine machine(seed, spread);
@@ -105,8 +105,8 @@ TEST(Gate, ABusyMachineCostsProcessesAndNoAnswers) {
   EXPECT_GE(found, kBusyComparisons * 95 / 100);
 }
 
-// A build that is slower by delta itself is the worst case of a false alarm: looking three times must not make it one
-// more often than the 2.5 % of its tail, 3 % of chance added.
+// A build that is slower by exactly delta is the worst case for a false alarm. Looking three times must not raise more
+// alarms than the 2.5 % of the interval's tail, plus 3 % for chance.
 TEST(Gate, LookingAgainDoesNotFindMoreByChance) {
   std::uint64_t alarms = 0;
   for (std::uint64_t seed = 4001; seed <= 4000 + kBusyComparisons; ++seed)
@@ -133,13 +133,13 @@ TEST(Gate, TheIntervalAloneAlarmsAboutAsOftenAsItSays) {
   EXPECT_LE(outside, kComparisons * 10 / 100);
 }
 
-// A core whose neighbor comes and goes, as measured on one (reports/README.md): what it costs changes within a
-// millisecond, ten, a hundred and a second, by so much each that whole processes differ by about 15 %.
+// A core whose neighbor comes and goes, as measured on one (reports/README.md). The neighbor's cost changes within a
+// millisecond, ten, a hundred and a second, in such amounts that whole processes differ by about 15 %.
 class SharedCore {
  public:
   explicit SharedCore(std::uint64_t seed) : state_(seed << 20U) {}
 
-  // How long a frame of so many milliseconds takes here and now; time goes on by that.
+  // How long a frame of so many milliseconds takes at this moment; the clock advances by that time.
   double frame(double ms) {
     constexpr std::array<double, 4> kLasts{0.7, 10.0, 100.0, 1000.0};  // ms, on average, until it comes or goes
     double log_factor = 0.0;

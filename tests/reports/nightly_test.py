@@ -16,7 +16,7 @@ ROOT = Path(__file__).resolve().parents[2]
 
 
 def commands():
-    """What the workflow runs, line by line, but for the set-up of a hosted machine and the look at the sources."""
+    """The workflow's commands, line by line, without the set-up of a hosted machine and the check of sources."""
     text = (ROOT / ".github/workflows/nightly.yml").read_text(encoding="utf-8")
     return [line for line in re.findall(r"^ +run: (.+)$", text, re.MULTILINE) if "out/nightly" in line]
 

@@ -23,7 +23,8 @@ TEST(RatioInterval, HoldsTheEstimateAndStaysWithinTheExtremes) {
   EXPECT_EQ(i.high, again.high);
 }
 
-// A machine that slows down by a third while it measures: pairs see it on both sides, so the ratio is exact.
+// A machine that slows down by a third while it measures: the two runs of a pair are slowed alike, so the ratio is
+// exact.
 TEST(RatioInterval, PairsCancelWhatDriftsForBoth) {
   std::vector<ProcessRuns> base;
   std::vector<ProcessRuns> head;
@@ -42,7 +43,8 @@ TEST(RatioInterval, PairsCancelWhatDriftsForBoth) {
   EXPECT_GT(apart.high, 1.15);
 }
 
-// Where processes differ and the runs of one do not, more runs give no more information: the interval stays as wide.
+// Where processes differ and the runs of one process do not, more runs give no more information: the interval stays as
+// wide.
 TEST(RatioInterval, RunsOfOneProcessAreNoSubstituteForProcesses) {
   std::vector<ProcessRuns> few;
   std::vector<ProcessRuns> many;

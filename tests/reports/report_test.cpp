@@ -87,7 +87,7 @@ TEST_F(HtmlReport, IsWellFormedAndSelfContained) {
     }
     EXPECT_NE(element.name, "link");
   }
-  // The script names XML's namespaces by their addresses; fetching any is what the policy forbids.
+  // The script contains the addresses by which XML's namespaces are named; the page's policy forbids fetching any.
   const std::string body = page.substr(0, page.rfind("<script>\n"));
   EXPECT_FALSE(has(body, "http://") || has(body, "https://") || has(body, "@import") || has(body, "url("));
   EXPECT_TRUE(has(page, "default-src 'none'"));

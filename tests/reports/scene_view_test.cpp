@@ -51,7 +51,7 @@ TEST(SceneView, VerdictsOfOneTraceAgainstSeveralBaselinesShareALine) {
   ASSERT_EQ(scenes[0].traces.size(), 1U);
   const TraceView& trace = scenes[0].traces[0];
   EXPECT_EQ(trace.baselines, (std::vector<std::string>{"a", "b"}));
-  EXPECT_EQ(trace.verdicts[0].size(), 1U);  // said three times alike, shown once
+  EXPECT_EQ(trace.verdicts[0].size(), 1U);  // three equal verdicts are shown once
   ASSERT_EQ(trace.verdicts[1].size(), 2U);  // "not applicable" was settled by the baselines
   EXPECT_EQ(trace.verdicts[1][0]->outcome, Outcome::kFail);
   EXPECT_EQ(trace.verdicts[1][1]->outcome, Outcome::kPass);

@@ -1,12 +1,12 @@
-/* Preloaded into a program, it makes everything between two looks at the clock take a tenth longer, by work and not by a
-   wrong clock: a thread that asks for the time first spins for a tenth of what went by since it asked last. */
+/* Preloaded into a program, it makes everything between two looks at the clock take a tenth longer, by work and not by
+   a wrong clock: a thread that asks for the time first spins for a tenth of what went by since it asked last. */
 #define _GNU_SOURCE
 #include <dlfcn.h>
 #include <time.h>
 
 typedef int (*Clock)(clockid_t, struct timespec*);
 
-/* The C library's own, which asks the kernel for nothing: a system call would cost more than the tenth. */
+/* The C library's own clock, which makes no system call: one would cost more than the tenth. */
 static Clock real(void) {
   static Clock clock;
   if (!clock) clock = (Clock)dlsym(RTLD_NEXT, "clock_gettime");

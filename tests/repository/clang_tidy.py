@@ -22,10 +22,11 @@ from source_tree import SourceTree
 
 VERSION = "14"
 FOLDERS = ("core/", "gpu/", "reference/", "validation/", "datasets/", "reports/", "bench/")
-# Not compiled by the presets that have no CUDA, or built against an installed tree.
+# Sources that presets without CUDA do not compile, or that are built against an installed tree.
 LEFT_OUT = re.compile(r"/examples/|^bench/benchmarks/")
 INCLUDED = re.compile(r'^#include "(.+)"$', re.MULTILINE)
-# Of a unit all that it includes is looked at but for kernels (.cuh), where 64 bits of an index cost registers, and that it
+# For a unit, everything that it includes is checked, except kernels (.cuh), where 64 bits of an index cost registers.
+# That a unit includes sources is intended.
 # includes sources is right.
 OF_A_UNIT = (r"--header-filter=/(core|gpu|reference|validation|bench|datasets|reports)/.*\.(hpp|cpp)$",
              "--checks=-bugprone-suspicious-include")

@@ -10,7 +10,7 @@ VERSION = "14"
 
 
 class Absent(Exception):
-    """The tool of a check is not on this machine."""
+    """Raised when the tool of a check is not on this machine."""
 
 
 def clang_format():

@@ -124,7 +124,7 @@ def _room_faults(name, target):
 
 
 def _absent_places(tree):
-    """A rule about a place that is not there protects nothing."""
+    """Rules about folders or files that do not exist: such a rule protects nothing."""
     places = {**{f"bench/{room}/": "ROOMS" for room in ROOMS}, **dict.fromkeys(WIRING, "WIRING"),
               **dict.fromkeys(PRIVATE, "PRIVATE"), **{f"{folder}/": "ALLOWED" for folder in ALLOWED},
               **dict.fromkeys(WRAPPERS, "WRAPPERS")}

@@ -5,7 +5,7 @@ unnamed namespace."""
 import re
 
 FOLDERS = ("core/", "gpu/", "reference/", "validation/", "datasets/", "reports/", "bench/")
-# The kernels' surroundings on the host have the names of those on the device: no program links both.
+# The host's stand-ins for the kernels' surroundings have the same names as those on the device: no program links both.
 STANDS_IN = "gpu/on_host/"
 NAMESPACE = re.compile(r"^\s*(?:inline\s+)?namespace\s*([\w:]*)\s*$")
 TYPE = re.compile(r"^\s*(?:template\s*<.*>\s*)?(?:struct|class|union|enum(?:\s+class|\s+struct)?)\s+(?:(?:\[\[\w+\]\]|alignas\([^)]*\))\s*)?"
@@ -15,7 +15,7 @@ NOISE = re.compile(r'//[^\n]*|/\*.*?\*/|R"(\w*)\(.*?\)\1"|"(?:\\.|[^"\\\n])*"|\'
 
 
 def types(text):
-    """Names, with their namespaces, of the types that a file defines at the level of a namespace, and the line of each."""
+    """The types that a file defines at namespace level: each name with its namespaces, and its line."""
     text = NOISE.sub(lambda m: " " + "\n" * m.group().count("\n"), text)
     scopes = []  # the name of each namespace around; None for any other brace
     start = 0

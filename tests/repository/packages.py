@@ -7,7 +7,8 @@ MODULE = re.compile(r"^\s*pkg_check_modules\(\s*\w+\s+(?:REQUIRED\s+|IMPORTED_TA
 # Threads comes with the compiler. CUDA comes from its vendor, and the build does without it.
 WITHOUT_PACKAGE = {"Threads", "CUDAToolkit"}
 TABLE = "cmake/packages.txt"
-# Those beside it: what only the Python package, only some engines of the contest, and only MPI's program need.
+# The tables beside it: packages that only the Python package, only some engines of the contest, or only MPI's program
+# need.
 TABLES = (TABLE, "cmake/packages_python.txt", "cmake/packages_contest.txt", "cmake/packages_mpi.txt")
 COLUMNS = ("debian-12", "ubuntu-24.04", "for")
 

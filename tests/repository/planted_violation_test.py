@@ -1,4 +1,4 @@
-"""Each check finds its kind of violation: one is planted in a small tree, and nothing else is reported."""
+"""Each check finds its kind of violation: one is planted in a small tree, and it alone is reported."""
 
 import json
 import shutil

@@ -1,4 +1,5 @@
-// Contacts whose parts do not belong together: impulses, tangents, shares and depths of others, or a little off.
+// Contacts whose parts do not belong together: impulses, tangents, shares and depths that belong to other contacts, or
+// are a little off.
 #include <cmath>
 #include <utility>
 
@@ -11,7 +12,7 @@ bool is_sliding(const Contact& c) {
   return c.tangent_impulse_n_s < 0.0F;
 }
 
-// The first two contacts that fit, of one frame.
+// The first two contacts of one frame for which the condition holds.
 template <typename Fits>
 std::pair<Contact*, Contact*> two_that(Recording& r, Fits fits) {
   for (FrameRecord& frame : r.frames) {

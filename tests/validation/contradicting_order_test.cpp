@@ -14,7 +14,7 @@ bool is_static(const Recording& r, std::uint32_t i) {
   return !core::is_face(i) && !(r.header.scene.bodies[i].inverse_mass > 0.0F);
 }
 
-// The first frame with two neighbors in the list of contacts that fit; these two.
+// The first frame in whose list of contacts two neighbors meet the condition; returns these two.
 template <typename Fits>
 std::pair<Contact*, Contact*> neighbors(Recording& r, Fits fit) {
   for (FrameRecord& frame : r.frames)
@@ -44,7 +44,7 @@ StaticSide static_side(Recording& r, Fits fits) {
   return is_static(r, c.a) ? StaticSide{&c.pre_a, &c.post_a, &c} : StaticSide{&c.pre_b, &c.post_b, &c};
 }
 
-// Across the normal, so that the depth is what it was.
+// A direction across the normal, so that the depth does not change.
 Vec3 across(const Contact& c) {
   return {c.normal.y * c.normal.y + c.normal.z * c.normal.z > 0.5F ? 1.0F : 0.0F, c.normal.x * c.normal.x, 0.0F};
 }
@@ -176,7 +176,7 @@ TEST(Contradictions, OfWhatContactsHandOn) {
   expect_rejected(kHandedOn);
 }
 
-// Every contact of two bodies starts from what was seen, and what they change is added up.
+// Every contact of two bodies starts from the states at detection, and the changes are added up.
 constexpr Corruption kJacobiSums[] = {
     {"a contact starts elsewhere", kJacobi, "state-sanity",
      [](Recording& r) {

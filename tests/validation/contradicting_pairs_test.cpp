@@ -1,4 +1,4 @@
-// Lists of pairs, vertices that touch and octrees that do not belong to the frame they are in.
+// Lists of pairs, touching vertices and octrees that do not belong to the frame in which they are recorded.
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -15,7 +15,7 @@ void count(FrameRecord& frame) {
   frame.pairs_demanded = frame.pairs_raw = frame.pairs.size();
 }
 
-// Two neighboring frames whose list differs.
+// Two neighboring frames whose lists differ.
 template <typename List>
 std::pair<FrameRecord*, FrameRecord*> where_changed(Recording& r, List FrameRecord::*list) {
   for (std::size_t k = 1; k < r.frames.size(); ++k)

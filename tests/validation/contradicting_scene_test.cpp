@@ -1,4 +1,4 @@
-// The frames are sound, and the scene beside them is changed: some law must see that they are of another scene.
+// The frames are sound and the scene beside them is changed: some law must see that the frames belong to another scene.
 #include <memory>
 #include <utility>
 

@@ -1,4 +1,4 @@
-// Frames that do not follow from each other, and records that say another thing than the frames beside them.
+// Frames that do not follow from each other, and records that contradict the frames beside them.
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -9,7 +9,7 @@
 namespace broadside::tests {
 namespace {
 
-// Statistics of what is recorded now, as a forger would write them.
+// Computes the statistics anew from the changed record, as a forger would write them.
 void count_again(Recording& r) {
   core::PenetrationCounter counter(r.header.scene.parameters.delta_m);
   r.statistics.clear();

@@ -46,7 +46,7 @@ TEST(Corruptions, OfDigests) {
   expect_rejected(kDigests);
 }
 
-// The first of a hundred frames each.
+// A scene with more than two windows of the statistics, of a hundred frames each.
 constexpr const char* kLong = "two-body:resting[frames=250]";
 
 constexpr Corruption kStatistics[] = {
@@ -89,7 +89,7 @@ TEST(Corruptions, OfStatisticsAndProvenance) {
   expect_rejected(kStatistics);
 }
 
-// Traces of a broad phase and of a narrow phase have digests of what those found.
+// Traces of a broad phase or a narrow phase have digests of the pairs that it found.
 TEST(FrameDigest, IsThatOfThePairsWhereNothingMoves) {
   Recording r = sound_run(kScene);
   r.header.groups = core::bit(core::Group::kDetection) | core::bit(core::Group::kPairs);
@@ -114,7 +114,8 @@ TEST(FrameDigest, OfItsOwnIsNotJudgedAndNoneIsZero) {
   EXPECT_EQ(verdict_of("frame-digest", r).outcome, core::Outcome::kPass);
 }
 
-// A run that was cut off lacks the rows of its last windows, and every window of steps and the last step may be there.
+// A run that was cut off lacks the rows of its last windows; at any step where it ends, the rows of complete windows
+// may be there.
 TEST(Recording, MayEndAnywhereAndHaveWindows) {
   Recording r = sound_run(kLong);
   r.statistics.clear();

@@ -6,7 +6,7 @@
 namespace broadside::tests {
 namespace {
 
-// As if nothing had been there: both bodies end the frame as detection saw them, and nothing follows.
+// As if there had been no contact: both bodies end the frame with the states of detection, and nothing follows.
 void pass_through(Recording& r) {
   FrameRecord& frame = frame_with(r, is_pair);
   frame.contacts.clear();

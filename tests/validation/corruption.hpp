@@ -44,7 +44,7 @@ inline const Recording& sound_run(const std::string& text) {
   return known.emplace(text, record(taken, settings)).first->second;
 }
 
-// The frames of steps after this one never were.
+// Removes the frames of all steps after this one.
 inline void cut_after(Recording& r, std::uint64_t step) {
   std::erase_if(r.frames, [step](const FrameRecord& f) { return f.step > step; });
 }
@@ -76,7 +76,7 @@ void erase_contact(Recording& r, Fits fits) {
 inline bool is_any(const Contact&) {
   return true;
 }
-// Changes nothing: its bodies are inside the slop and leave each other.
+// A contact that changes nothing: its bodies are within the slop and separate.
 inline bool is_idle(const Contact& c) {
   return c.pre_a == c.post_a && c.pre_b == c.post_b;
 }

@@ -38,7 +38,7 @@ TEST(LevelAgreement, AWronglySkippedChildIsRejectedAloneAndAgainstABaseline) {
   EXPECT_EQ(verdict_of("level-agreement", skipped).outcome, Outcome::kFail);
   const core::Verdict v = verdict_of("level-agreement", skipped, &baseline);
   EXPECT_EQ(v.outcome, Outcome::kFail);
-  // Once alone, once against the baseline.
+  // One violation within the trace itself, and one against the baseline.
   EXPECT_EQ(v.violations, 2u) << line(v);
 }
 

@@ -160,7 +160,8 @@ TEST(CandidateSet, SupersetEnginesMayHaveMoreButMissNothing) {
   EXPECT_EQ(verdict_of("candidate-set", superset).outcome, Outcome::kFail);
 }
 
-// A repeated pair is no pair too many: of a superset engine only the form of its list tells.
+// A repeated pair is not counted as an extra pair: for an engine that reports a superset, only the form of its list
+// shows the fault.
 TEST(CandidateSet, SupersetEnginesNameEachPairOnceAndInOrder) {
   Recording superset = sound();
   superset.header.broad_is_exact = false;

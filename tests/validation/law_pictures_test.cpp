@@ -1,4 +1,4 @@
-// Every law has a picture on the page, and no picture is of a law that is not there.
+// Every law has a picture on the page, and every picture belongs to a law that exists.
 #include "reports/law_pictures.hpp"
 
 #include <gtest/gtest.h>

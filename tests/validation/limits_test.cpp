@@ -63,7 +63,7 @@ Contact along_x(double pre_a, double post_a, double pre_b, double post_b) {
   return c;
 }
 
-// A comes at this speed against a static B and leaves at that one; the impulse is what it takes.
+// A comes at the speed `before` against a static B and leaves at `after`; the impulse is what that change takes.
 Contact bounce(double before, double after) {
   Contact c = along_x(1, 1, 0, 0);
   c.depth_m = 0.0F;
@@ -130,7 +130,8 @@ TEST(Limits, OfNormalImpulses) {
   });
 }
 
-// A slides at this speed over a static B, which it meets at 1 m/s and leaves at 0.3; friction takes the given impulse.
+// A slides at this speed over a static B, which it meets at 1 m/s and leaves at 0.3 m/s; friction takes the given
+// impulse.
 Recording slid(double speed, double impulse_n_s, Vec3 tangent = {0, 1, 0}) {
   Contact c = bounce(-1, 0.3F);
   c.pre_a.v.y = rounded(speed);
@@ -162,7 +163,7 @@ TEST(Limits, OfFriction) {
   });
 }
 
-// One cube at step 1 of the scene, where detection saw it; what is missing is as it was at the start.
+// One cube at step 1 of the scene, where detection saw it; whatever is not given is as at the start.
 Recording one_body(Vec3 start, Vec3 velocity, Vec3 gravity, const Kinematics& seen) {
   Recording r;
   core::Scene& scene = r.header.scene;
@@ -182,7 +183,7 @@ Recording one_body(Vec3 start, Vec3 velocity, Vec3 gravity, const Kinematics& se
   return r;
 }
 
-// Within the domain's +x face at 1/2 m, but for `off`, and without a contact.
+// Inside the domain, `off` from its +x face at 1/2 m, without a contact.
 Recording at_a_face(double off) {
   Recording r = one_body({rounded(off), 0, 0}, {}, {}, {{rounded(off), 0, 0}, {}});
   r.header.scene.domain.max.x = 0.5F;
@@ -277,7 +278,7 @@ TEST(Limits, OfNearestVertices) {
          const auto index_of = [&](Vec3 v) {
            return static_cast<std::uint32_t>(std::find(vertices.begin(), vertices.end(), v) - vertices.begin());
          };
-         // All vertices of the two sides are as near: the lowest of A stands for them.
+         // All vertices of the two sides are equally near: the lowest one of A is recorded.
          const auto a = std::find_if(vertices.begin(), vertices.end(), [](Vec3 v) { return v.x == 0.5F; });
          const double d = 0.125 - off;
          frame.proximity = {{rounded(d * d), index_of(*a), index_of({-0.5F, a->y, a->z})}};

@@ -52,14 +52,14 @@ TEST(OverlapJoin, FindsWhatTryingEveryPairFinds) {
   }
 }
 
-// Enough boxes for the join on threads.
+// Enough boxes that the join runs on threads.
 TEST(OverlapJoin, ManyBoxesOnThreadsGiveWhatTryingEveryPairGives) {
   validation::OverlapJoin join;
   std::vector<Box> boxes = random_boxes(20500, 40.0F, 2.5F, 7);
   std::vector<std::uint8_t> is_static(boxes.size(), 0);
   for (std::size_t k = 0; k < is_static.size(); k += 3) is_static[k] = 1;
   EXPECT_EQ(join.join(boxes, is_static), every_pair(boxes, is_static));
-  // Memory of the join before is used again.
+  // The memory of the earlier join is used again.
   boxes.resize(20100);
   is_static.resize(20100);
   EXPECT_EQ(join.join(boxes, is_static), every_pair(boxes, is_static));

@@ -14,7 +14,7 @@ namespace {
 
 using Kind = validation::SceneRelation::Kind;
 
-// A drawn scene, short enough for hundreds of them.
+// A random scene, short enough that hundreds can be run.
 core::Scene drawn_scene() {
   core::Scene scene =
       bench::random_scene(*rc::gen::arbitrary<std::uint32_t>(), -2.0F, *rc::gen::element(1.0F, 10.0F, 1e4F));
@@ -76,8 +76,8 @@ RC_GTEST_PROP(Properties, ARenumberedSceneHasTheRenumberedOutcome, ()) {
   holds_against(scene, core::renumbered_scene(scene, order), Kind::kRenumbered);
 }
 
-// Three bodies in a row: the order of the two contacts shows in the last body, which then meets a face with another
-// state. Its face contact was once taken for an error of the engine.
+// Three bodies in a row: the order of the two contacts decides the state of the last body, which then meets a face in
+// another state. Its contact with the face was once taken for an error of the engine.
 TEST(Renumbered, FacesAreMetByWhatSeveralContactsLeft) {
   core::Scene scene = bench::random_scene(1124966, -2.0F, 1e4F);
   scene.frames = 12;
@@ -90,8 +90,8 @@ TEST(Renumbered, FacesAreMetByWhatSeveralContactsLeft) {
   EXPECT_NE(v.explanation.find("resolved in another order"), std::string::npos) << line(v);
 }
 
-// A body as deep in one static body as in another: whichever contact comes first moves it out of the other, so each run
-// has only one contact, and not the same one.
+// A body is as deep in one static body as in another. Whichever contact is applied first moves it out of the other
+// body, so each run has only one contact, and not the same one.
 TEST(Renumbered, AContactMayUndoAnother) {
   core::Scene scene;
   scene.name = "between";
@@ -118,7 +118,7 @@ RC_GTEST_PROP(Properties, GrownBoxesHaveNoFewerPairs, ()) {
   holds_against(scene, core::grown_scene(scene, *rc::gen::element(1.125F, 1.5F, 3.0F)), Kind::kGrown);
 }
 
-// Twice mirrored, renumbered there and back, scaled up and down: the scene itself.
+// Mirrored twice, renumbered there and back, scaled up and down: the result is the scene itself.
 RC_GTEST_PROP(Properties, TransformationsCanBeUndone, ()) {
   const core::Scene scene = drawn_scene();
   const std::uint64_t digest = core::scene_digest(scene);

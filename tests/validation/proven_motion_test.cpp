@@ -15,7 +15,7 @@ bool is_proven(const std::vector<core::Verdict>& verdicts) {
   return std::any_of(verdicts.begin(), verdicts.end(), core::proves_motion);
 }
 
-// A scene without gravity and speed, in which an engine that does nothing is right.
+// A scene without gravity and without speeds, for which doing nothing is right.
 Recording of_nothing() {
   core::Scene scene = sound_run("two-body:apart").header.scene;
   scene.gravity_m_s2 = {};
@@ -74,7 +74,7 @@ TEST(ProvenMotion, IntegrationIsHeldAgainstTracesOfTheMethodAlone) {
   EXPECT_EQ(part->outcome, core::Outcome::kNotApplicable);
 }
 
-// 68,495 violations under one worst value hid which laws they were of.
+// Once, 68,495 violations were reported under one worst value, which hid the laws that they broke.
 TEST(StateSanity, EachOfItsLawsHasItsOwnWorstPlaceAndCount) {
   Recording r = sound();
   const std::size_t last = r.frames.size() - 1;

@@ -42,9 +42,9 @@ TEST(RandomScenes, AreNotBlamedForMassesAMillionTimesApart) {
   for (unsigned seed = 300; seed < 320; ++seed) expect_no_blame(random_scene(seed, -2.0F, 1e6F), {}, seed);
 }
 
-// A limit that rounding never comes near would be a guess. So for each law with a derived limit, some contact of
-// some scene must use a good part of it. (Sums of worst cases, as in energy, are near their limit only in small
-// scenes.)
+// A limit that rounding never comes near would be a guess. So for each law with a derived limit, some contact of some
+// scene must use a good part of it. (Limits that are sums of worst cases, as for energy, are nearly reached only in
+// small scenes.)
 TEST(RandomScenes, UseAGoodPartOfTheLimits) {
   std::map<std::string, double> most;
   for (unsigned seed = 0; seed < 40; ++seed)

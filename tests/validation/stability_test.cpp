@@ -38,8 +38,9 @@ TEST(StepLimit, PrintedIsTooLargeOnceThereIsDamping) {
   EXPECT_GT(core::step_limit_printed(1.0, 2.0), core::step_limit_sound(1.0, 2.0));
 }
 
-// Undamped, the recurrence keeps v^2 + w0^2 y^2 - h w0^2 y v, whose axes are 1 -+ r with r = h w0 / 2: so powers stay
-// below sqrt((1 + r) / (1 - r)), and come near where the rotation is by no simple fraction of a turn.
+// Undamped, the recurrence keeps v^2 + w0^2 y^2 - h w0^2 y v, an ellipse with the axes 1 -+ r, where r = h w0 / 2. So
+// powers stay below sqrt((1 + r) / (1 - r)), and come near that bound where the rotation is no simple fraction of a
+// turn.
 TEST(StepPowers, StayBelowTheConservedFormsBound) {
   for (const double r : {0.1, 0.3, 0.99}) {
     validation::StepPowers powers(1.0, 0.0, 2.0 * r);

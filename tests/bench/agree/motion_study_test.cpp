@@ -1,4 +1,5 @@
-// The motion study's parts: verdicts of planted answers, families that are what they say, and query files.
+// The motion study's parts: verdicts on planted answers, families that have the property they are named for, and query
+// files.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -68,7 +69,7 @@ TEST(MotionVerdicts, SumsByFamily) {
   EXPECT_EQ(median_of(table.all.late), 0.25);
 }
 
-// A family in which nothing touches, or everything does at once, says nothing about an engine.
+// A family in which nothing touches, or in which everything touches at once, says nothing about an engine.
 TEST(FeatureDraw, FamiliesTouchAndDoNot) {
   for (const MotionKind kind : {MotionKind::kVertexFace, MotionKind::kEdgeEdge}) {
     std::array<int, std::size(kFeatureFamilies)> touching{}, drawn{};

@@ -32,8 +32,8 @@ constexpr const char* kOneLabel =
     "for rows in \"$1\"/cells.json \"$1\"/verdicts.json; do [ ! -f \"$rows\" ] ||\n"
     "  sed -i 's/\"settings_short\":\"[^\"]*\"/\"settings_short\":\"\"/' \"$rows\"\ndone\n";
 
-// A build: records and judges errata:E3 with some settings of the engine, whose label does not tell them, as that of an
-// edited engine would not. Each run is a line in the log; `before` comes first.
+// A build: records and judges errata:E3 with some settings of the engine. Its label leaves the settings out, as the
+// label of an edited engine would. Each run appends a line to the log; the text `before` is run first.
 std::string build_text(const std::string& settings, const fs::path& log, const std::string& before = "") {
   return before + "echo run >> '" + log.string() + "'\nset -e\n'" + program_path() +
          "' run errata:E3 --engine 'octree-cpu[" + settings + "]' --frames 20 --out \"$1\"\n'" + program_path() +
@@ -83,7 +83,7 @@ std::string first_of(const json& result, const std::string& quantity) {
   return answer.contains("first_changed") ? answer["first_changed"]["title"].get<std::string>().substr(8) : "none";
 }
 
-// good, notes, more tests, two that do not build, mended, wrong, notes.
+// Commits in this order: good, notes, more tests, two that do not build, one that builds again, a wrong one, notes.
 void fill(Repository& repository, const fs::path& log) {
   const std::string good_build = "test -f sim && touch built\n";
   const std::string bad_build = "echo 'sim.c:3: error' >&2\nexit 2\n";
@@ -122,21 +122,21 @@ TEST(Bisection, OfCommitsNamesTheFirstForEachQuantityWithBothSides) {
   EXPECT_EQ(verdict["differences"][0]["is"], "fail");
   for (const char* side : {"last_unchanged", "first_changed"})
     EXPECT_TRUE(fs::exists(verdict[side]["results"].get<std::string>() + "/verdicts.json")) << side;
-  // The proof of a digest is where the traces part.
+  // The answer about digests is proved by the step at which the traces start to differ.
   EXPECT_NE(answer_of(result, "digest")["traces"].get<std::string>().find("step"), std::string::npos) << ended.out;
   EXPECT_NE(read_text(folder / "out" / "bisect.md").find("swaps the masses"), std::string::npos);
 
   // Nothing of the repository itself was touched.
   EXPECT_FALSE(fs::exists(repository.path() + "/built"));
   repository.git("diff --quiet HEAD");
-  // The same call again runs nothing and says the same.
+  // The same call again runs nothing and gives the same answer.
   const std::size_t runs = lines_of(folder / "log");
   const Ended again = run_program(arguments);
   EXPECT_EQ(again.out, ended.out);
   EXPECT_EQ(lines_of(folder / "log"), runs);
 }
 
-// The printed friction (E6) lets one pair part earlier than the sound one does.
+// With the printed friction (E6) a pair separates earlier than with the sound one.
 TEST(Bisection, OfContactsNamesTheStepAndAPair) {
   const ScratchFolder folder;
   for (const char* variant : {"sound", "printed-E6"})
@@ -185,11 +185,11 @@ TEST(Bisection, CommitsThatDoNotBuildBesideTheChangeAreNamedAndLeaveItOpen) {
       << ended.out;
 }
 
-// Scripts as builds that are there; the bisection is killed in the middle and goes on.
+// The builds are scripts that exist already. The bisection is killed in the middle and then continued.
 TEST(Bisection, AKilledOneGoesOnWhereItWas) {
   const ScratchFolder folder;
   const fs::path log = folder / "log";
-  // The third run ends the program that started it, without a word.
+  // The third run kills the bisection that started it.
   const std::string kill = "if [ -f '" + log.string() + "' ] && [ $(wc -l < '" + log.string() +
                            "') -eq 2 ]; then echo killed >> '" + log.string() +
                            "'; kill -9 $(cut -d ' ' -f 4 /proc/$PPID/stat); exit 1; fi\n";
@@ -209,12 +209,12 @@ TEST(Bisection, AKilledOneGoesOnWhereItWas) {
   EXPECT_NE(ended.err.find("goes on: 2 runs are known"), std::string::npos) << ended.err;
   const json result = json::parse(ended.out);
   EXPECT_EQ(answer_of(result, "counter")["first_changed"]["title"], builds[2]);
-  // Good, bad, [killed] good again, and the two between: none of them twice.
+  // Good, bad, the run that killed the bisection, good again, and the two builds between: no finished run is repeated.
   EXPECT_EQ(lines_of(log), 6U);
 }
 
-// What a killed bisection started may still write into its folder, and git leaves a lock in a clone that it was killed
-// in.
+// Processes that a killed bisection started may still write into its folder, and git leaves a lock in a clone in which
+// it was killed.
 TEST(Bisection, OneWaitsForWhatAKilledOneStartedAndMendsItsClone) {
   const ScratchFolder folder;
   const fs::path log = folder / "log";
@@ -236,7 +236,7 @@ TEST(Bisection, OneWaitsForWhatAKilledOneStartedAndMendsItsClone) {
   EXPECT_EQ(ended.exit_code, 1) << ended.out << ended.err;
   EXPECT_NE(ended.err.find("bisect: waiting for another one in "), std::string::npos) << ended.err;
   EXPECT_EQ(read_text(log).substr(0, 18), "killed\nlate\nbuilt\n") << read_text(log);
-  // Another way to build makes other builds.
+  // Another build command makes other builds.
   const Ended other = run_program(arguments("true"));
   EXPECT_EQ(other.exit_code, 2);
   EXPECT_NE(other.err.find("it holds a bisection of other builds"), std::string::npos) << other.err;
@@ -245,7 +245,7 @@ TEST(Bisection, OneWaitsForWhatAKilledOneStartedAndMendsItsClone) {
 TEST(Bisection, AGoodBuildThatDiffersFromItselfIsNoBaseline) {
   const ScratchFolder folder;
   const fs::path log = folder / "log";
-  // Sound in every other run.
+  // The third run is wrong, so the good build differs from itself.
   const std::string sound = build_text(kSound, log);
   const std::string wrong = build_text(kWrong, log);
   const std::string text =
@@ -269,14 +269,14 @@ TEST(Bisection, ExitCodesOfAnyCommandAreEnough) {
   EXPECT_EQ(ended.exit_code, 1) << ended.out << ended.err;
   EXPECT_NE(ended.out.find("exit: the first build that changes it is " + (folder / "4").string()), std::string::npos)
       << ended.out;
-  // No rows, so nothing else can be told.
+  // There are no rows, so no other property can be compared.
   arguments[arguments.size() - 5] = "digest";
   const Ended rows = run_program(arguments);
   EXPECT_EQ(rows.exit_code, 3) << rows.out << rows.err;
   EXPECT_NE(rows.out.find("leaves no cells.json"), std::string::npos) << rows.out;
 }
 
-// Times made by hand: real samples, and the same half again as long.
+// The times are made by hand: samples of a real run, and the same half again as long.
 TEST(Bisection, OfTimesUsesTheGateOfCompare) {
   const ScratchFolder folder;
   const std::string rows = (folder / "rows").string();
@@ -309,7 +309,8 @@ TEST(Bisection, OfTimesUsesTheGateOfCompare) {
   EXPECT_EQ(answer["differences"][0]["is"].get<std::string>().substr(0, 5), "1.500") << ended.out;
 }
 
-// With a scene both programs take turns; so large a delta cannot be exceeded by one build against itself.
+// Given a scene, both programs are timed in turns. The delta is so large that one build cannot exceed it against
+// itself.
 TEST(Bisection, OfOneProgramUnderTwoNamesFindsNoChange) {
   const ScratchFolder folder;
   fs::create_symlink(program_path(), folder / "old");

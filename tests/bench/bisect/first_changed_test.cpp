@@ -52,7 +52,7 @@ TEST(FirstChanged, BuildsThatCannotBeJudgedWidenTheAnswerAndNoMore) {
       if ((mask >> bit & 1U) != 0) unknown.insert(bit + 1);
     for (std::size_t change = 1; change < kCount; ++change) {
       const Searched s = search_for(kCount, change, unknown);
-      // By hand: the nearest builds on both sides that can be judged.
+      // The expected answer, worked out here: the nearest builds on both sides that can be judged.
       std::size_t last = change - 1;
       while (unknown.contains(last)) --last;
       std::size_t first = change;
@@ -66,7 +66,7 @@ TEST(FirstChanged, BuildsThatCannotBeJudgedWidenTheAnswerAndNoMore) {
   }
 }
 
-// Two hundred commits in a row that do not compile, and the change far from them: few are tried.
+// Two hundred commits in a row do not compile, and the change is far from them: few of them are tried.
 TEST(FirstChanged, LeavesABlockOfUnknownBuildsQuickly) {
   std::set<std::size_t> unknown;
   for (std::size_t k = 400; k < 600; ++k) unknown.insert(k);

@@ -55,7 +55,7 @@ TEST(CampaignFile, IsEveryCombinationOnce) {
     EXPECT_TRUE(work.stand_in);
     EXPECT_EQ(work.time_limit_s, 9.5);
   }
-  // Scenes: 2 counts and one that does not vary. Engines: one that does not vary and 3 cells.
+  // Scenes: one with 2 counts, and one that does not vary. Engines: one that does not vary, and one with 3 cells.
   EXPECT_EQ(cells.size(), 3U * 4U);
   EXPECT_EQ(campaign.value().cells.size(), cells.size());
   EXPECT_TRUE(cells.contains("freefall:cube:9 hash-cpu[cell_mm=200]"));

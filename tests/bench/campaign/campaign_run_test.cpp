@@ -100,8 +100,8 @@ TEST(CampaignRun, AKilledCellIsDoneAgain) {
   EXPECT_TRUE(was_begun);
   kill(running, SIGKILL);
   EXPECT_EQ(wait_for(folder, running).exit_code, -1);
-  // Its children were ended with it and write nothing where the next try begins. Their own limits would be 2 s and 30
-  // s.
+  // Its children were ended with it, so they write nothing into the folder in which the next try begins. Their own
+  // limits would be 2 s and 30 s.
   for (int k = 0; k < 100 && processes_about(d) > 0; ++k) std::this_thread::sleep_for(std::chrono::milliseconds(10));
   EXPECT_EQ(processes_about(d), 0);
   const Ended merged = run_program({"merge", d});

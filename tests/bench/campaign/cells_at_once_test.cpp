@@ -28,7 +28,7 @@ Ended contest(const std::filesystem::path& out, const std::string& jobs) {
                       out.string()});
 }
 
-// Each cell is a process of its own, so what runs beside it changes no bit; and no cell is done twice.
+// Each cell is a process of its own, so cells that run beside it change no bit; and no cell is run twice.
 TEST(CellsAtOnce, GiveTheDigestsOfOneByOne) {
   const ScratchFolder folder;
   const Ended one = contest(folder / "one", "1");
@@ -46,7 +46,7 @@ TEST(CellsAtOnce, APageOfFinishedCellsNeedsNoNewPlan) {
   const ScratchFolder folder;
   const std::filesystem::path out = folder / "d";
   contest(out, "2");
-  // What another build planned: the page is made of its cells all the same.
+  // The manifest names another build as its planner: the page is made from the cells all the same.
   std::string manifest = read_text(out / "manifest.json");
   const std::string old_build = core::read_rows(out).value().cells.front().stamp.broadside_build;
   ASSERT_NE(manifest.find(old_build), std::string::npos);

@@ -94,9 +94,9 @@ def on_slurm(program, wrong, small_cluster, folder, expected):
         cells = running_cells(env)
         if not cells:
             sys.exit("no cell ever ran")
-        run("scancel", "--signal=KILL", cells[0][0], env=env, check=False)  # one cell killed
-        run("scancel", "--nodelist=node2", "--state=RUNNING", env=env, check=False)  # what is on one node cancelled
-        run("scancel", "--state=PENDING", "--name=cluster-checked", env=env, check=False)  # and what was queued
+        run("scancel", "--signal=KILL", cells[0][0], env=env, check=False)  # one cell is killed
+        run("scancel", "--nodelist=node2", "--state=RUNNING", env=env, check=False)  # and those that run on one node
+        run("scancel", "--state=PENDING", "--name=cluster-checked", env=env, check=False)  # and those in the queue
         wait_for_queue(env)
         before, text = missing(program, sound)
         if before == 0:

@@ -37,7 +37,7 @@ std::map<std::string, core::EquivalenceFact> facts_of(const core::Engine& engine
 TEST(EquivalenceCard, EveryEngineAnswersTheQuestionsOfItsCapabilities) {
   for (const core::EngineRow& row : bench::engines()) {
     if (!bench::why_absent(row).empty()) continue;
-    if (row.create == nullptr) continue;  // a program tells its own card
+    if (row.create == nullptr) continue;  // a program sends its own card
     const core::Engine engine = made(row);
     std::vector<std::string> asked{"library loaded", "library build", "precision", "SIMD", "threads"};
     const auto ask = [&](const std::vector<std::string>& more) { asked.insert(asked.end(), more.begin(), more.end()); };

@@ -20,7 +20,7 @@ TEST(StepSuffix, AFileNameMayHaveAnAt) {
   }
 }
 
-// The same time in other steps.
+// The scene lasts as long as before, in steps of another length.
 TEST(StepSuffix, KeepsTheDuration) {
   SceneArguments plain{"two-body:head-on", 0, false};
   const auto scene = plain.make();

@@ -45,7 +45,7 @@ TEST(AgreeMotion, TheArbiterAndOurOwnAreNeverLate) {
   }
 }
 
-// FCL's queries of features miss all touches of edges that stay parallel; samples miss what is fast.
+// FCL's queries of features miss all touches of edges that stay parallel; sampling misses fast motions.
 TEST(AgreeMotion, AMissIsSavedAndRepeats) {
   for (const auto& [kind, engine, good] :
        {std::array<std::string, 3>{"edge-edge", "fcl-features", "feature-impact"},

@@ -84,7 +84,7 @@ TEST(Agree, KissingBoxesRunToTheEndWhateverDies) {
   EXPECT_EQ(pairs, 300U);
 }
 
-// A pair follows from its index and an answer from its pair, so results do not depend on the number of processes.
+// A pair follows from its index alone and an answer from its pair, so results do not depend on the number of processes.
 TEST(Agree, TheNumberOfProcessesChangesNoVerdict) {
   std::vector<json> verdicts;
   for (const std::string processes : {"1", "3"}) {
@@ -100,8 +100,8 @@ TEST(Agree, TheNumberOfProcessesChangesNoVerdict) {
   EXPECT_EQ(verdicts[0], verdicts[1]);
 }
 
-// FCL's EPA refines a whole ball where two balls share their center. The limit on processor time ends the query,
-// however busy the machine is, and the time-out is a verdict like the others.
+// Where two balls share their center, FCL's EPA goes on refining the whole ball. The limit on processor time ends the
+// query, however busy the machine is, and the time-out is a verdict like the others.
 TEST(Agree, AQueryThatDoesNotComeBackIsATimeOut) {
   const ScratchFolder folder;
   const Ended ended =
@@ -184,8 +184,8 @@ TEST(References, PairsAndTimesComeFromProcessesWithLimits) {
   EXPECT_NE(timed_late.err.find("no end after"), std::string::npos) << timed_late.err;
 }
 
-// The limit counts what the engine's process takes for its work, not what the harness has in use: 50,000 bodies do not
-// fit 16 MiB.
+// The limit counts the memory that the engine's process needs for its work, not what the harness uses itself: 50,000
+// bodies do not fit into 16 MiB.
 TEST(References, AMemoryLimitOfARunIsItsEnginesOwn) {
   const ScratchFolder folder;
   const auto run = [&](const char* limit) {

@@ -1,4 +1,4 @@
-// What `check` says and which code it ends with when there is little or nothing to judge.
+// What `check` prints, and its exit code, when there is little or nothing to judge.
 #include <gtest/gtest.h>
 
 #include <string>

@@ -16,7 +16,7 @@ std::string program_path() {
   return program == nullptr ? "broadside" : program;
 }
 
-// One build against itself: seven pairs are enough for a decision, and with so large a delta it cannot be
+// One build against itself: seven pairs are enough for a decision, and with so large a delta the build cannot be
 // "slower".
 TEST(Compare, TwoBuildsInTurnsLeaveRowsOfBothAndAVerdict) {
   const ScratchFolder folder;
@@ -37,8 +37,7 @@ TEST(Compare, TwoBuildsInTurnsLeaveRowsOfBothAndAVerdict) {
   EXPECT_NE(again.out.find("7 and 7 processes in turns"), std::string::npos) << again.out;
 }
 
-// With a delta of 0, equal builds can hardly be shown to be the same, so more pairs are tried after the first
-// ones.
+// With a delta of 0, equal builds can hardly be shown to be the same, so more pairs are run after the first ones.
 TEST(Compare, WhatIsNotToldGetsMoreProcesses) {
   const ScratchFolder folder;
   const Ended ended = run_program({"compare", "--interleave", program_path(), program_path(), "errata:E4", "--frames",
@@ -58,7 +57,7 @@ TEST(Compare, WhatIsNotToldGetsMoreProcesses) {
   }
 }
 
-// A build without turns: its processes run whole, one after the other, and the comparison says so.
+// A program without the option for turns: its processes run whole, one after the other, and the comparison says so.
 TEST(Compare, AProgramThatKnowsNoTurnsIsComparedAllTheSame) {
   const ScratchFolder folder;
   const std::filesystem::path old = folder / "old";
@@ -70,7 +69,8 @@ TEST(Compare, AProgramThatKnowsNoTurnsIsComparedAllTheSame) {
   EXPECT_NE(ended.err.find("knows no turns"), std::string::npos) << ended.err;
 }
 
-// What always comes second is measured on a warmer machine, so the builds change places from pair to pair.
+// The build that always comes second would be measured on a warmer machine, so the builds change places from pair to
+// pair.
 TEST(Compare, TheBuildsTakeTurnsInComingFirst) {
   const ScratchFolder folder;
   const std::filesystem::path log = folder / "log";
@@ -152,7 +152,7 @@ TEST(Run, JsonIsOnTheOutputAloneAndTheTableFitsAHundredColumns) {
   EXPECT_NE(table.out.find("1 of 1 cell recorded in"), std::string::npos) << table.out;
 }
 
-// The output of a run on a terminal; empty where there is none to be had.
+// The output of a run on a terminal; empty where no terminal can be opened.
 std::string on_terminal(const std::vector<std::string>& arguments, bool no_color) {
   int terminal = -1;
   const pid_t child = forkpty(&terminal, nullptr, nullptr, nullptr);

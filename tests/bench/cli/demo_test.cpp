@@ -1,4 +1,4 @@
-// The main job: what it leaves, what it takes over, and what its exit code speaks of.
+// The main job: which files it leaves, which it takes over from an earlier run, and what its exit code depends on.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -51,7 +51,7 @@ TEST(MainJob, SecondCallTakesOverWhatIsThere) {
     EXPECT_EQ(fs::last_write_time(folder / kKept[k]), written[k]) << kKept[k];
 }
 
-// Verdicts are of what the traces contain, not of their names: the judged ones are kept with a digest of each file.
+// Verdicts belong to the content of a trace, not to its name: verdicts are kept together with a digest of each file.
 TEST(MainJob, AChangedTraceAndDamagedVerdictsAreJudgedAgain) {
   const ScratchFolder folder;
   const std::vector<std::string> demo = small_demo(folder, "freefall:brick:2[rigid=1]");

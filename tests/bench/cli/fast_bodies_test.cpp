@@ -1,4 +1,5 @@
-// A bullet that meets cards, as a user runs and judges it: before steps of fast bodies had parts, `unilateral` broke.
+// A bullet that meets cards, as a user runs and judges it. Before steps of fast bodies were taken in parts,
+// `unilateral` failed here.
 #include <gtest/gtest.h>
 
 #include "tests/bench/cli/program.hpp"

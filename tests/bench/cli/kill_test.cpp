@@ -57,7 +57,8 @@ const Digests& unbroken(std::uint64_t frames) {
   return known[frames];
 }
 
-// Both begin alike, bit by bit, as far as the shorter one goes: the length of a run changes none of its frames.
+// Both begin with the same frames, bit by bit, for as long as the shorter one lasts: the length of a run changes none
+// of its frames.
 void expect_same_beginning(const Digests& whole, const Digests& found) {
   auto at = whole.begin();
   for (const auto& [step, digest] : found) {
@@ -126,8 +127,8 @@ TEST(Kill, SlowTwoHundredRuns) {
   kill_often(200, 5, 2000);
 }
 
-// Killed once a reader sees frames of it, so that there is something to continue. A run that ends before it is killed
-// (this process may have to wait) is started again.
+// The run is killed once a reader sees frames in its file, so that there is something to continue. A run that ends
+// before it is killed (this process may have to wait) is started again.
 fs::path kill_when_it_has_frames(const ScratchFolder& folder, const std::vector<std::string>& run) {
   const fs::path whole = folder / "out" / kName;
   const fs::path part = whole.string() + ".part";

@@ -194,7 +194,8 @@ TEST(Compare, ARunAgainstItselfIsGoodAndAVanishedCellIsNot) {
 
 TEST(Run, AnEngineThatHasNotTheShapeIsUnsupportedAndDidNotCrash) {
   const ScratchFolder folder;
-  // A limit makes an own engine run in a child process, as engines of others do; plain-rigid has no cylinders.
+  // With a limit, one of our own engines also runs in a child process, as vendors' engines do. plain-rigid has no
+  // cylinders.
   const Ended ended = run_program({"run", "rigid:disk:euler", "--engine", "plain-rigid", "--frames", "5",
                                    "--time-limit", "60", "--out", folder.text()});
   EXPECT_EQ(ended.exit_code, 3) << ended.out << ended.err;

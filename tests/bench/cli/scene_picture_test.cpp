@@ -68,8 +68,8 @@ Extent extent_of(const std::string& svg, const std::string& style) {
   return {right - left, bottom - top};
 }
 
-// The eye is 28 degrees round the vertical, from z toward x, and a turn about y goes that way too. So a unit cube that
-// is turned by a is |cos(28 - a)| + |sin(28 - a)| wide. Pixels are rounded to tenths.
+// The view direction is 28 degrees from z toward x, around the vertical axis, and a positive turn about y goes the same
+// way. So a unit cube that is turned by a is |cos(28 - a)| + |sin(28 - a)| wide. Pixels are rounded to tenths.
 TEST(ScenePicture, ACubeThatIsTurnedHasTheOutlineOfItsPose) {
   core::Scene scene = empty_scene();
   add_body(scene, datasets::box_mesh({1, 1, 1}, {1, 1, 1}), {-1.5F, 0, 0});

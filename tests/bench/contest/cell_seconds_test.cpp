@@ -23,7 +23,7 @@ campaign::Manifest manifest() {
   return m;
 }
 
-// What was not measured takes what its scene takes, or all scenes.
+// A cell that was not measured is expected to take the mean of its scene, or else the mean of all scenes.
 TEST(CellSeconds, UnknownCellsCountAsTheMeanOfTheirScene) {
   EXPECT_DOUBLE_EQ(known().expected("a", "two"), 8.0);
   EXPECT_DOUBLE_EQ(known().expected("a", "three"), 6.0);
@@ -77,7 +77,7 @@ TEST(CellSeconds, ALineThatIsNoneIsNamed) {
   }
 }
 
-// The program knows what its whole default contest takes.
+// The program has kept times for the whole default contest.
 TEST(CellSeconds, SecondsAreKept) {
   EXPECT_GT(CellSeconds::kept().expected("rigid:bounce", "plain-rigid"), 0.0);
 }

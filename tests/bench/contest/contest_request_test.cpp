@@ -29,7 +29,8 @@ TEST(ContestRequest, CellsAreScenesTimesEnginesTimesSteps) {
   EXPECT_NE(campaign.value().cells[0].scene.find("two-body:head-on@"), std::string::npos);
 }
 
-// The whole contest has an hour: of the scenes that nobody named, one of each kind runs at every step.
+// The whole contest has to fit into an hour: of the scenes that the user did not name, one of each kind runs at every
+// step.
 TEST(ContestRequest, WithoutScenesOneOfEachKindTakesEveryStep) {
   ContestRequest request;
   request.engines = {"plain-rigid"};
@@ -42,7 +43,8 @@ TEST(ContestRequest, WithoutScenesOneOfEachKindTakesEveryStep) {
   EXPECT_EQ(of("rigid:torque-free:box"), 4);
   EXPECT_EQ(of("rigid:slide:heading-3"), 4);
   EXPECT_EQ(of("rigid:slide:heading-5"), 1);
-  // What stands by statics at 1/240 s runs at the usual 1/60 s too, also as its manual recommends.
+  // Scenes that must stand by statics, whose own step is 1/240 s, run at the usual 1/60 s too, also with the
+  // recommended settings.
   const std::string_view kStand[] = {"rigid:incline:stick",    "rigid:tip:incline-stands", "rigid:tip:push-stands",
                                      "rigid:card-tent:stands", "rigid:overhang:stands",    "rigid:arch:7-stands",
                                      "rigid:arch:25-stands"};
@@ -53,7 +55,8 @@ TEST(ContestRequest, WithoutScenesOneOfEachKindTakesEveryStep) {
   EXPECT_EQ(cells.size(), default_scenes().size() + 9 * 3 + std::size(kStand) + 12 + 6);
 }
 
-// Which engines of npm this machine has installed must not matter: asking one what it is would start this program.
+// Which engines of npm this machine has installed must not matter here: asking an engine for its description would
+// start this test program as its child process.
 class WithoutFetchedEngines {
  public:
   WithoutFetchedEngines() {
@@ -69,7 +72,7 @@ class WithoutFetchedEngines {
   std::string before_;
 };
 
-// An engine that is not on this machine is a word on the page, and no cell.
+// An engine that is not on this machine is named on the page with its reason, and has no cell.
 TEST(ContestRequest, AbsentEnginesHaveAReasonAndNoCell) {
   const WithoutFetchedEngines none;
   ContestRequest request;

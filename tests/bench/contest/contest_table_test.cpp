@@ -34,8 +34,8 @@ Verdict verdict(const std::string& law, Outcome outcome, double measured = 0.0) 
   return v;
 }
 
-// One scene at two steps: at its own a law is broken, at half of it all hold; the timed run at its own step ended
-// elsewhere.
+// One scene at two steps: at its own step a law is broken, at half of it all laws hold. The timed run at the scene's
+// own step ended in another digest.
 core::RunRows rows() {
   core::RunRows rows;
   for (const bool is_own : {true, false}) {
@@ -108,7 +108,7 @@ TEST(ContestTable, ThePageHasEveryPart) {
     EXPECT_NE(page.find(text), std::string::npos) << text;
 }
 
-// A run with two threads is compared with that of one, and is no column of its own.
+// A run with two threads is compared with that of one thread, and has no column of its own.
 TEST(ContestTable, RunsOfOneAndTwoThreadsAreCompared) {
   const auto with = [](std::uint64_t of_one, std::uint64_t of_two) {
     core::RunRows all = rows();
@@ -129,7 +129,7 @@ TEST(ContestTable, RunsOfOneAndTwoThreadsAreCompared) {
   EXPECT_NE(html_text(contest_document(table(), "x")).find("one thread alone"), std::string::npos);
 }
 
-// Depth, creep and cost stand in tables of their own; energy is a picture.
+// Depth, creep and cost have tables of their own; energy is a picture.
 TEST(ContestTable, StacksHeapsAndEnergyAreOnThePage) {
   core::RunRows all = rows();
   all.verdicts[0].verdicts.push_back(verdict("penetration", Outcome::kPass, 0.002));
@@ -144,7 +144,7 @@ TEST(ContestTable, StacksHeapsAndEnergyAreOnThePage) {
     EXPECT_NE(page.find(text), std::string::npos) << text;
 }
 
-// A broken law has its cause beside it where somebody looked, and says so where nobody did.
+// A broken law has its cause beside it where the cause was looked into, and a note where it was not.
 TEST(ContestTable, WhatIsBrokenHasItsCauseOrIsNotYetLookedInto) {
   core::RunRows all = rows();
   for (auto& cell : all.cells) cell.stamp.engine = "mujoco-world";
@@ -160,7 +160,8 @@ TEST(ContestTable, WhatIsBrokenHasItsCauseOrIsNotYetLookedInto) {
   EXPECT_TRUE(known_cause("plain-rigid", "momentum", "rigid:bounce").empty());
 }
 
-// rest is broken at the scene's own step alone, so another step has it in no line; passage at the other step alone.
+// `rest` is broken at the scene's own step, so it is not listed among laws that are broken at another step alone;
+// `passage` is.
 TEST(ContestTable, TellsWhatIsBrokenAtOtherStepsAlone) {
   core::RunRows all = rows();
   const auto page = [](const core::RunRows& r) {
@@ -177,7 +178,7 @@ TEST(ContestTable, TellsWhatIsBrokenAtOtherStepsAlone) {
   EXPECT_NE(page(all).find("1 of them not yet looked into"), std::string::npos);
 }
 
-// Causes at one step alone come first; a cause of every step serves at each.
+// Causes that hold at one step alone are looked up first; a cause without a step serves at every step.
 TEST(ContestTable, OtherStepsHaveCausesOfTheirOwn) {
   EXPECT_FALSE(known_cause("cannon", "rest", "rigid:tip:push-stands@1/60").empty());
   EXPECT_TRUE(known_cause("cannon", "rest", "rigid:tip:push-stands").empty());
@@ -186,7 +187,7 @@ TEST(ContestTable, OtherStepsHaveCausesOfTheirOwn) {
   EXPECT_EQ(known_cause("jolt", "gyroscopic", "rigid:flight:box@1/60"), known_cause("jolt", "gyroscopic", "rigid:"));
 }
 
-// The engine that breaks a law is right on no scene; one timed run of two ended elsewhere.
+// The engine that breaks a law is right on no scene; of the two timed runs one ended in another digest.
 TEST(ContestTable, BeginsWithWhoIsRightAndWhoRepeats) {
   const std::string page =
       html_text(contest_document(contest_table(rows(), {{"mine", ""}}, {{"rigid:a", 1.0 / 60}}), "x"));
@@ -195,7 +196,7 @@ TEST(ContestTable, BeginsWithWhoIsRightAndWhoRepeats) {
   EXPECT_NE(page.find("of 2 timed runs ended in the very bits"), std::string::npos);
 }
 
-// Each engine has a row as it ships, and each second row is an entrant.
+// Each engine has a row with its settings as shipped, and its recommended settings, if any, are a second entrant.
 TEST(ContestTable, EveryTuningIsAnEntrant) {
   const auto entrants = default_entrants();
   for (const Tuning& t : tunings()) {

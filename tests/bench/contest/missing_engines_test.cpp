@@ -43,7 +43,7 @@ TEST(MissingEngines, NothingIsInstalledUnasked) {
   };
   EXPECT_EQ(install_missing(kEntrants, {kIds, [](const std::string&) { return false; }, install}), 0U);
   EXPECT_EQ(installed, 0U);
-  // Nobody is asked where nothing is missing.
+  // The user is not asked where nothing is missing.
   EXPECT_EQ(install_missing({{"rapier", ""}}, {kIds, [](const std::string&) -> bool { throw "asked"; }, install}), 0U);
 }
 

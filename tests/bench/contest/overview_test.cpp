@@ -77,7 +77,8 @@ TEST(ContestOverview, ASquareSaysWhatIsWorst) {
   EXPECT_EQ(unknown.mark, "?");
   EXPECT_TRUE(unknown.is_open);
   EXPECT_NE(unknown.words.find("not yet looked into"), std::string::npos) << unknown.words;
-  // Laws that hold above their limit are those whose limit is the least; they are near to none.
+  // Some laws hold while they are above their limit, which is then a least value; they are never named as near to their
+  // limit.
   EXPECT_NE(mosaic.rows[0].squares[1].words.find("nearest to its limit is momentum: 0.5 m, limit 1 m"),
             std::string::npos);
   EXPECT_EQ(mosaic.rows[2].squares[0].tone, Tone::kAbsent);
@@ -95,7 +96,7 @@ TEST(ContestOverview, EverySquareThatLeadsSomewhereHasItsLine) {
   EXPECT_NE(page.find("id=\"family_slide\""), std::string::npos);
 }
 
-// One line a cause: what nobody looked into comes first.
+// One line for each cause; broken laws whose cause was not looked into come first.
 TEST(ContestOverview, CausesAreCounted) {
   const std::string page = html_text(contest_document(two_engine_table(), "x"));
   EXPECT_NE(page.find("Of these 2 were looked into"), std::string::npos);

@@ -18,7 +18,7 @@ double magnitude(const core::Vec3& v) {
   return std::hypot(static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z));
 }
 
-// Of a needle that spins, the speed of its tip: 1 m from its middle.
+// The largest speed of any body; for a needle that spins, the speed of its tip, which is 1 m from its middle.
 double largest_speed_m_s(const core::Scene& scene) {
   double largest = 0.0;
   for (const core::Body& b : scene.bodies)
@@ -50,8 +50,8 @@ TEST(PassageCourses, AreCellsOfTheDefaultContestOnce) {
     for (const PassageRun& run : course.runs) EXPECT_EQ(scenes.count(run.scene), 1U) << run.scene;
 }
 
-// A place of the picture is the law's outcome, also of a scene that is a passage alone; and that one is in no table of
-// scenes with answers.
+// A mark in the picture shows the law's outcome, also for a scene that is about passage alone; such a scene is in no
+// table of scenes with answers.
 TEST(PassageCourses, ThePageSaysWhatWentThrough) {
   core::RunRows rows;
   const auto add = [&rows](const PassageRun& run, core::Outcome outcome) {

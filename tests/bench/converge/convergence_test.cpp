@@ -1,4 +1,4 @@
-// The order that errors show, and what a declaration that is not met leads to.
+// The order of convergence that errors show, and the verdict where a declared order is not met.
 #include "bench/converge/convergence.hpp"
 
 #include <gtest/gtest.h>
@@ -85,7 +85,8 @@ Convergence measured(const std::string& name, const std::string& order) {
   return convergence.ok() ? convergence.value() : Convergence{};
 }
 
-// A torque is applied once a step, so the angle is of the first order: declared as the fourth, it fails.
+// A torque is applied once a step, so the angle converges with order one: where the fourth order is declared, the law
+// fails.
 TEST(Convergence, AWrongDeclarationFails) {
   const auto right = bench::judge_convergence(measured("rigid:spin-up", "1"));
   EXPECT_EQ(right.outcome, Outcome::kPass) << right.explanation;
@@ -95,7 +96,8 @@ TEST(Convergence, AWrongDeclarationFails) {
   EXPECT_NE(wrong.explanation.find("attitude falls with order 1"), std::string::npos) << wrong.explanation;
 }
 
-// Its orientations are by a method of the fourth order; with the angular momentum constant they do better.
+// Its orientations come from a method of the fourth order; because the angular momentum is constant, the order is even
+// higher.
 TEST(Convergence, FreeTurningOfPlainRigidIsOfTheFourthOrderAtLeast) {
   const Convergence c = measured("rigid:torque-free:box[dt_s=0.02,frames=150]", "4");
   const auto verdict = bench::judge_convergence(c);

@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// A cache of its own, so that what a user installed is not seen.
+// Uses a cache of its own, so that engines which a user installed are not seen.
 class FetchedEngines : public testing::Test {
  protected:
   void SetUp() override {
@@ -31,7 +31,7 @@ class FetchedEngines : public testing::Test {
     before_.empty() ? unsetenv("XDG_CACHE_HOME") : setenv("XDG_CACHE_HOME", before_.c_str(), 1);
     fs::remove_all(folder_);
   }
-  // What npm would leave.
+  // Leaves the files that npm would leave.
   void install(const std::string& id) {
     for (const ProgramFile& file : program_files()) {
       fs::create_directories((root(id) / file.path).parent_path());
@@ -76,7 +76,7 @@ TEST_F(FetchedEngines, AnInstalledOneIsACommand) {
   EXPECT_EQ(fetched_command("rapier"), "");
 }
 
-// Files of another version of this tree are not this program's.
+// Files that another version of this tree installed are not taken for this program's.
 TEST_F(FetchedEngines, AnOlderProgramIsInstalledAgain) {
   install("jolt");
   std::ofstream(root("jolt") / "reference/programs/rigid_bodies.mjs") << "// older\n";

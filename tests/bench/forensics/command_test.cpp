@@ -66,7 +66,7 @@ TEST_F(Forensics, ReplayRepeatsOwnTracesBitByBit) {
   EXPECT_NE(wrong.out.find("First difference"), std::string::npos) << wrong.out;
 }
 
-// The replay recorded every step, and groups that depend on which steps are recorded were "only in A".
+// The replay recorded every step, so groups that depend on which steps are recorded were reported as "only in A".
 TEST_F(Forensics, ReplayRecordsTheStepsOfTheTrace) {
   const std::string second = recorded("freefall:sphere:10", "octree-cpu", "20", "a", {"--every", "2"});
   const std::string window = recorded("freefall:sphere:10", "octree-cpu", "20", "b", {"--window", "5:9"});

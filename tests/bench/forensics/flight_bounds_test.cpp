@@ -49,7 +49,7 @@ TEST(FlightBounds, OneIntegratorTruncatesAlike) {
   EXPECT_LT(position_after(method, method, 8), 1e-4);
 }
 
-// A tumbling brick's bound grows until it says nothing more; one that does not turn keeps rounding.
+// The bound for a tumbling brick grows until it says nothing; for a body that does not turn only rounding is left.
 TEST(FlightBounds, OfTurningGrowsToHalfATurn) {
   const auto header = header_with({{"order", "1"}});
   FlightBounds bounds(header, header);

@@ -73,7 +73,8 @@ TEST(ForeignPage, SaysForEachValidatorWhatItReads) {
     // A trace with the needed groups alone is judged; a baseline is the trace itself.
     core::TraceHeader header;
     header.stamp.engine = "foreign";
-    // Laws of mechanics hold for every engine, and some only where the method's own law does not say more.
+    // Laws of mechanics hold for every engine; some of them apply only where no law of the method checks the same more
+    // strictly.
     if (!v.reads_motion) header.declaration = core::method_declaration();
     header.scene.motion = v.reads_motion ? core::Motion::kRigid : core::Motion::kTranslate;
     header.scene.answer = v.name == "closed-form" ? "flight" : "stands";
@@ -150,7 +151,8 @@ TEST_F(ForeignEngine, IsRepeatedByBroadPhasesExactly) {
   EXPECT_NE(ended.out.find("only in B"), std::string::npos) << ended.out;
 }
 
-// Its response is another one than ours: it is compared until bodies are touched, and not after that.
+// Its contact response differs from ours: it is compared until bodies are touched for the first time, and not after
+// that.
 TEST_F(ForeignEngine, IsRepeatedBySimulationUntilBodiesAreTouched) {
   const Ended ended = run_program({"replay", written("none"), "--engine", "octree-cpu"});
   EXPECT_EQ(ended.exit_code, 0) << ended.out << ended.err;

@@ -37,7 +37,7 @@ core::Scene tumbling_brick(float drop_m) {
   return scene;
 }
 
-// What somebody else's engine may get wrong.
+// Faults that an engine made by others may have.
 struct Fault {
   double gravity = 1.0;
   double turning = 1.0;
@@ -135,7 +135,8 @@ TEST_F(ReplayOfTurning, ASpinThatGrowsIsFound) {
   EXPECT_NE(ended.out.find("First difference: step 1, body 0, /trace/body/"), std::string::npos) << ended.out;
 }
 
-// The other engine never meets the floor, which ours does: from there on they must part, and nothing is called wrong.
+// The other engine never meets the floor, which ours does: from there on their motions must differ, and neither is
+// called wrong.
 TEST_F(ReplayOfTurning, FromTheFirstTouchOnNothingIsJudged) {
   const Ended ended = replayed(written(tumbling_brick(0.05F), {}, "touch"));
   EXPECT_EQ(ended.exit_code, 0) << ended.out << ended.err;
@@ -143,7 +144,8 @@ TEST_F(ReplayOfTurning, FromTheFirstTouchOnNothingIsJudged) {
   EXPECT_NE(ended.out.find("they must part there"), std::string::npos) << ended.out;
 }
 
-// A position may be off by h^2 g / 2 a step where an engine declares order 1, and not where both declare order 2.
+// An engine that declares order 1 may be off by h^2 g / 2 in position a step; where both declare order 2 this is a
+// fault.
 TEST_F(ReplayOfTurning, AnEngineOfOrderOneMayTruncateAndOneOfAnotherOrderMayNot) {
   core::Scene scene = tumbling_brick(5.0F);
   scene.bodies[0].angular_velocity = {};

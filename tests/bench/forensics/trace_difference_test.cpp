@@ -89,7 +89,7 @@ TEST_F(Traces, PartAtTheEarliestStepWithTheHistoryOfItsBodies) {
   EXPECT_EQ(d.first->field, "/trace/body/position");
   EXPECT_EQ(d.first->bodies[0], 2U);
   EXPECT_EQ(ulps_between(d.first->a, d.first->b), 1U);
-  // Ten steps before, and the step itself in both traces; body 3's contacts are not body 2's.
+  // The ten steps before, and the step itself from both traces; contacts of body 3 are not part of body 2's history.
   ASSERT_EQ(d.history.size(), 12U);
   EXPECT_EQ(d.history.front().step, 5U);
   for (const auto& h : d.history) EXPECT_EQ(h.contact.b, 2U);
@@ -183,7 +183,8 @@ TEST_F(Traces, APointMoreIsOfItsOwnTrace) {
   EXPECT_EQ(kind_against("c.h5", moved), DifferenceKind::kOrder);
 }
 
-// Declarations are no difference of what happened; float64 beside float32 is compared as float32.
+// A difference in declarations is no difference in what happened; float64 is compared with float32 after rounding to
+// float32.
 TEST_F(Traces, SayWhatIsDeclaredOtherwiseAndWhichStatesAreNarrowed) {
   TraceHeader header = header_of(tetrahedra_scene(kBodies), bit(Group::kBodies) | bit(Group::kWideBodies));
   header.declaration = Declaration::of({{"motion", "rigid"}, {"friction", "pyramid"}});

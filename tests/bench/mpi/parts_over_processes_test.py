@@ -9,7 +9,7 @@ import sys
 import unittest
 
 MPIEXEC, SPREAD, BROADSIDE = sys.argv[1:4]
-# More processes than cores, and by whoever runs the tests: names of Open MPI, which others do not read.
+# Allows more processes than cores, and any user; the names are Open MPI's, and other implementations ignore them.
 WISHES = {"OMPI_MCA_rmaps_base_oversubscribe": "1", "OMPI_ALLOW_RUN_AS_ROOT": "1",
           "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}
 

@@ -1,4 +1,4 @@
-// plain-rigid is not blamed: on random scenes, at three step sizes, no law finds anything.
+// plain-rigid is not blamed: on random scenes, at three step sizes, no law reports a violation.
 #include <gtest/gtest.h>
 
 #include "bench/mutants/rigid_mutations.hpp"

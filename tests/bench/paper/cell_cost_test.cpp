@@ -1,4 +1,4 @@
-// Estimates of a cell's time: they decide the order of a campaign and the time that it shows, and no result.
+// Estimates of a cell's time. They decide the order of a campaign and the time that it shows, and no result.
 #include "bench/paper/cell_cost.hpp"
 
 #include <gtest/gtest.h>

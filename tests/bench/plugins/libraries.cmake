@@ -1,4 +1,4 @@
-# The shared libraries that tests load, into one folder.
+# Builds the shared libraries that tests load, into one folder.
 set(plugin_folder ${CMAKE_CURRENT_BINARY_DIR}/plugins)
 function(add_plugin name source)
   add_library(${name} MODULE ${source})

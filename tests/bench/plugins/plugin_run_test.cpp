@@ -51,8 +51,7 @@ TEST(PluginRun, TheExampleIsRecordedAndJudged) {
   EXPECT_EQ(verdict_of("candidate-set", both.check.out), "pass") << both.check.out;
 }
 
-// The four commands of the walk-through as written there, with the example and a small scene: its times are
-// admitted.
+// The four commands of the walk-through as written there, with the example and a small scene. Their times are admitted.
 TEST(PluginRun, TheWalkThroughEndsInAProvenReport) {
   const ScratchFolder folder;
   const std::string text = read_text(std::string(BROADSIDE_SOURCE_DIR) + "/core/plugin/README.md");
@@ -115,7 +114,7 @@ std::vector<std::string> words_of(const std::string& line) {
   return words;
 }
 
-// How an engine's process ended, in the same words from each command, with the command that repeats it.
+// How an engine's process ended. Each command reports it in the same words, with the command that repeats it.
 struct Fault {
   int number;
   std::string verdict;

@@ -1,5 +1,5 @@
-// Engines that are programs, through Broadside as a user would name them: right ones are judged, and whatever a wrong
-// one says or does not say is one clear line with the right exit code.
+// Engines that are programs, run through Broadside as a user would name them. Right ones are judged; whatever a wrong
+// one sends, or fails to send, becomes one clear line with the right exit code.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -114,7 +114,7 @@ TEST(ProgramRun, ItIsUnderTheLimitOfMemory) {
   EXPECT_NE(ended.out.find("MemoryError"), std::string::npos) << ended.out;
 }
 
-// As the environment says while this exists; then as it was.
+// Sets an environment variable for as long as this object lives, and then restores it.
 class Variable {
  public:
   Variable(const char* name, const char* value) : name_(name) {
@@ -130,8 +130,8 @@ class Variable {
   std::string before_;
 };
 
-// An interpreter takes long to start: what a program says of itself is asked once in a tree of processes. The log has a
-// line a start: one to be described, one that runs in the child.
+// An interpreter takes long to start, so a program is asked for its description once in a tree of processes. The log
+// has a line for each start: one for the description, one for the run in the child.
 TEST(ProgramRun, WhatItIsIsAskedOnceForAllProcessesOfARun) {
   const ScratchFolder folder;
   const std::string log = folder.text() + "/starts";
@@ -209,7 +209,7 @@ TEST(ProgramRun, EnginesMayStandInAFile) {
   }
 }
 
-// The examples, each judged by every law: none fails, and those named here were met.
+// The examples, each judged by every law: none fails, and the laws that are named here met something to check.
 void expect_lawful(const std::string& engine, const std::string& scene, const std::string& trace) {
   const ScratchFolder folder;
   const Ended run = run_program({"run", kExamples + scene, "--engine", engine, "--out", folder.text()});

@@ -1,4 +1,4 @@
-// Ctrl-C and SIGTERM end work that takes minutes: soon, with one line and exit code 3. The work does not ask for the
+// Ctrl-C and SIGTERM end work that takes minutes: soon, with one line and exit code 3. The work cannot check for the
 // signal, because it is one call of an engine. Earlier, such work went on to its end.
 #include <gtest/gtest.h>
 
@@ -43,7 +43,7 @@ TEST_P(Interrupt, EndsAnEngineInTheMiddleOfACall) {
   kill(child, GetParam().signal);
   const auto start = Clock::now();
   const Ended ended = wait_for(folder, child);
-  // 0.6 s and what a busy machine adds.
+  // 0.6 s, and what a busy machine adds to it.
   EXPECT_LT(std::chrono::duration<double>(Clock::now() - start).count(), 10.0);
   EXPECT_EQ(ended.exit_code, 3) << ended.out << ended.err;
   EXPECT_TRUE(is_one_line(ended.err)) << ended.err;
@@ -59,7 +59,7 @@ INSTANTIATE_TEST_SUITE_P(All, Interrupt,
                                          Case{"TermInAChild", "bullet-sap", "boxes:uniform:200000", SIGTERM}),
                          [](const auto& instance) { return instance.param.name; });
 
-// The limit was set on other people's engines alone.
+// Earlier, the limit was applied only to vendors' engines.
 TEST(Limits, BindOurOwnEnginesToo) {
   const Ended memory =
       run_program({"pairs", "boxes:uniform:3000000", "--engine", "octree-cpu", "--memory-limit", "100"});
@@ -75,7 +75,7 @@ TEST(Limits, BindOurOwnEnginesToo) {
   EXPECT_NE(run.out.find("no end after 2 s"), std::string::npos) << run.out << run.err;
 }
 
-// The child's error line was passed on and then said again by the parent.
+// Earlier, a child's error line was passed on and then printed again by the parent.
 TEST(Limits, AnErrorOfAChildIsSaidOnce) {
   const ScratchFolder folder;
   std::ofstream(folder / "short.boxes") << "x";

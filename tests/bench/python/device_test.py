@@ -1,6 +1,6 @@
 """Arrays by address: DLPack's capsules on the host, and boxes and pairs on a GPU where there is one.
 
-Without CuPy, torch or JAX a GPU's memory is had from CUDA's driver itself, so that a machine with a GPU is enough.
+Without CuPy, torch or JAX the test gets GPU memory from CUDA's driver itself, so a machine with a GPU is enough.
 """
 
 import ctypes
@@ -68,7 +68,7 @@ def test_rows_are_given_without_a_copy_and_keep_their_owner():
 
 
 def test_rows_with_other_numbers_between_them():
-    """As states lie on the GPU: three floats, and a fourth that is something else."""
+    """The layout of states on the GPU: three floats, and a fourth that means something else."""
     packed = np.arange(12, dtype=np.float32).reshape(3, 4)
     seen = np.from_dlpack(DeviceRows(address(packed), (3, 3), "float32", (HOST, 0), packed, 16))
     assert address(seen) == address(packed) and np.array_equal(seen, packed[:, :3])
@@ -110,7 +110,7 @@ def test_a_capsule_that_nobody_takes_is_let_go():
 
 
 class Interface:
-    """What a library says of an array on a GPU."""
+    """The interface by which a library describes an array on a GPU."""
 
     def __init__(self, **facts):
         usual = {"shape": (7, 6), "typestr": "<f4", "data": (4096, False), "version": 3}
@@ -225,7 +225,7 @@ def test_bad_boxes_on_the_gpu_are_refused_by_number():
 
 
 class Library:
-    """How one library puts an array on the GPU, takes rows, and tells where an array lies."""
+    """How one library puts an array on the GPU, takes rows of it, and gives its address."""
 
     def __init__(self, name):
         if importlib.util.find_spec(name) is None:

@@ -60,7 +60,7 @@ class Elsewhere:
 
 
 class OnDevice:
-    """What CuPy, torch and JAX say of an array on a GPU."""
+    """The interface by which CuPy, torch and JAX describe an array on a GPU."""
 
     __cuda_array_interface__ = {"shape": (1, 6), "typestr": "<f4", "data": (4096, False), "version": 3}
 

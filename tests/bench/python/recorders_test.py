@@ -1,4 +1,4 @@
-"""The recorders of bench/python/examples: those whose simulator is here are run, the others are short and say so."""
+"""The recorders of bench/python/examples: those with their simulator installed are run, others say why."""
 
 import os
 import shutil

@@ -2,7 +2,7 @@
 
     run_in_environment.py WHEELS ENVIRONMENT FILE...
 
-The environment is made of the one wheel in the folder WHEELS, and again when that is another one. Exits 77, with the
+The environment is made of the one wheel in the folder WHEELS, and anew when the wheel has changed. Exits 77, with the
 reason, where pytest or NumPy are not installed.
 """
 

@@ -27,7 +27,8 @@ def test_columns_have_the_numbers_of_free_fall(falling):
 
 def test_every_column_is_what_another_reader_finds(stack):
     h5py = pytest.importorskip("h5py")
-    # One process may open a file twice where both say how they lock it; Broadside's readers never do.
+    # One process may open a file twice where both openings agree on how the file is locked; Broadside's readers never
+    # lock it.
     with h5py.File(stack.path, locking=False) as file:
         for path, column in stack.columns.items():
             theirs = file["trace/" + path][:]
@@ -54,7 +55,7 @@ def test_rows_of_a_frame_are_views_and_not_copies(stack):
     assert first.__array_interface__["data"] == second.__array_interface__["data"]
     gap = frame["point/gap"]
     assert gap.strides == first.strides[:1], "both lie in the same rows"
-    # Nothing between: gap stands right behind the normal in a row of core/contact_point.hpp.
+    # There is nothing between them: gap follows the normal directly in a row of core/contact_point.hpp.
     assert gap.__array_interface__["data"][0] - first.__array_interface__["data"][0] == first.shape[1] * 4
     assert np.from_dlpack(np.asarray(stack["body/position"])).shape == (8, 5, 3)
 

@@ -1,4 +1,4 @@
-"""What native.pyi and the annotations say is what is there."""
+"""native.pyi and the annotations describe exactly what the module has."""
 
 import ast
 import inspect

@@ -1,4 +1,4 @@
-"""The wheel by itself: what it holds, and that it works where nothing is known of this tree."""
+"""The wheel by itself: what it holds, and that it works where this tree is absent."""
 
 import base64
 import hashlib

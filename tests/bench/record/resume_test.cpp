@@ -13,7 +13,7 @@
 namespace broadside::tests {
 namespace {
 
-// What was recorded: two steps of three.
+// The header of the recorded trace: two steps of three.
 core::TraceHeader header_of(const core::Scene& scene) {
   core::TraceHeader header;
   header.scene = scene;

@@ -124,7 +124,7 @@ TEST(ShrinkScene, TurnsAPrintedFormIntoACaseThatRepeatsIt) {
   EXPECT_EQ(shrunk.value().verdict.outcome, core::Outcome::kFail);
 }
 
-// Once, bodies were dropped and their springs went to other bodies.
+// Once, when bodies were dropped, their springs were attached to other bodies.
 TEST(WithBodies, KeepsTheSpringsOfThoseThatStay) {
   const core::Scene scene = named("springs:hanging");
   const core::Scene last = bench::with_bodies(scene, std::vector<std::uint32_t>{2});
@@ -170,13 +170,13 @@ TEST(ShrinkScene, FindsAFaultOfAComparisonOfTwoEngines) {
   const auto answer = bench::ask(question, named("errata:E3"));
   ASSERT_TRUE(answer.ok()) << answer.error().line();
   EXPECT_EQ(answer.value().verdict.outcome, core::Outcome::kNotApplicable);
-  // A second run of the same engine is the baseline when none is named.
+  // Where no baseline is named, a second run of the same engine is the baseline.
   const auto alone = bench::ask({"determinism", {octree, {}}, {}}, named("errata:E3"));
   ASSERT_TRUE(alone.ok()) << alone.error().line();
   EXPECT_EQ(alone.value().verdict.outcome, core::Outcome::kPass) << alone.value().verdict.explanation;
 }
 
-// Forgets each pair whose first box starts right of x = 0 and whose second is wider than 1.
+// Forgets each pair whose first box starts right of x = 0 and whose second box is wider than 1.
 core::Result<std::vector<core::Pair>> forgetful(const std::vector<core::Box>& boxes) {
   std::vector<core::Pair> pairs;
   for (std::uint32_t i = 0; i < boxes.size(); ++i)
@@ -194,7 +194,7 @@ TEST(ShrinkBoxes, EndsAtTheTwoBoxesOfAForgottenPair) {
   ASSERT_EQ(shrunk.value().boxes.size(), 2U);
   EXPECT_EQ(shrunk.value().missed, (std::vector<core::Pair>{{0, 1}}));
   EXPECT_TRUE(shrunk.value().extra.empty());
-  // Digits: what is left of each number is at most one of them.
+  // Digits were rounded too: each number has at most one digit left.
   for (const core::Box& b : shrunk.value().boxes)
     for (int k = 0; k < 3; ++k) EXPECT_EQ(b.min[k], bench::rounded_to(b.min[k], 1));
 }

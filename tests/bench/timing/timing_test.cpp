@@ -1,4 +1,4 @@
-// How an engine that runs ahead is timed: in one call, each frame's time the interval between two completions.
+// How an engine that runs ahead is timed: in one call, in which a frame's time is the interval between two completions.
 #include "bench/timing/timing.hpp"
 
 #include <gtest/gtest.h>
@@ -144,7 +144,7 @@ TEST(Timing, NobodyRunsAheadInTurns) {
   EXPECT_EQ(series(samples.value()[0], "frame").size(), kFrames);
 }
 
-// Its own filter takes a second, it says.
+// An engine that reports a second for its own filter.
 class Filtering final : public core::BroadPhase {
  public:
   [[nodiscard]] core::BroadPhaseTraits traits() const override { return {}; }

@@ -1,4 +1,5 @@
-// Two processes in turns: never both at once, never far from each other, and none waits for one that is gone.
+// Two processes in turns: they never run at once and never get far from each other, and neither waits for a process
+// that has ended.
 #include "bench/timing/turns.hpp"
 
 #include <gtest/gtest.h>
@@ -29,11 +30,11 @@ struct Shared {
   std::atomic<int> inside{0};
   std::atomic<bool> were_two_inside{false};
   std::array<std::atomic<std::int64_t>, 2> done{};
-  std::atomic<std::int64_t> farthest{0};  // the first before the second, in frames
+  std::atomic<std::int64_t> farthest{0};  // how many frames the first was ahead of the second, at most
   std::atomic<std::int64_t> nearest{0};
 };
 
-// One of the two, in a thread of its own: `frames` frames of 0.1 ms.
+// The work of one of the two, in a thread of its own: `frames` frames of 0.1 ms.
 void work(const std::string& role, std::int64_t frames, std::size_t self, Shared& shared) {
   Turns turns;
   EXPECT_TRUE(turns.join(role));

@@ -1,4 +1,5 @@
-// Candidates of continuous collision: each once, and none that shares a vertex; counts that can be told by hand.
+// Candidates of continuous collision: each is found once, and none shares a vertex. The expected counts are worked out
+// by hand.
 #include "core/continuous/feature_candidates.hpp"
 
 #include <gtest/gtest.h>
@@ -55,8 +56,8 @@ TEST(FeatureCandidates, TwoTriangles) {
   EXPECT_EQ(candidates(s).count(), 15U);
 }
 
-// Neighbors share an edge, and the two vertices off it change places: what is left are these with the other face, and
-// the two pairs of edges that do not meet in a vertex.
+// Neighbors share an edge, and the two vertices off that edge change places. What is left: each of these two vertices
+// with the other face, and the two pairs of edges that share no vertex.
 TEST(FeatureCandidates, NeighborsOfOneSheet) {
   MovingSurface s;
   s.start = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}};

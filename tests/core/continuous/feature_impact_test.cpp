@@ -1,4 +1,4 @@
-// The fast first touch against the exact one: nothing missed, nothing late, next to nothing early or made up.
+// The fast first touch against the exact one: no touch is missed or late, and hardly any is early or made up.
 #include "core/continuous/feature_impact.hpp"
 
 #include <gtest/gtest.h>
@@ -27,7 +27,7 @@ struct Account {
   }
 };
 
-// What the method promises of every query whatsoever.
+// What the method promises for every query.
 void hold_against_exact(const MovingFeatures& f, Account& account) {
   const Impact fast = first_impact(f);
   const exact::TouchTime truth = exact::first_touch(f);
@@ -102,7 +102,7 @@ TEST(FeatureImpact, ClosedAnswers) {
   passes.start[0] = {0.75, 0.75, 1};
   passes.end[0] = {0.75, 0.75, -2};
   EXPECT_EQ(first_impact(passes), Impact{});
-  // The plane z = t (x + y) turns towards the vertex (t/2, t/2, 1/2): t^2 = 1/2.
+  // The plane z = t (x + y) turns toward the vertex (t/2, t/2, 1/2): t^2 = 1/2.
   const MovingFeatures turns{FeatureKind::kVertexFace,
                              {{0, 0, 0.5}, {0, 0, 0}, {1, 0, 0}, {0, 1, 0}},
                              {{0.5, 0.5, 0.5}, {0, 0, 0}, {1, 0, 1}, {0, 1, 1}}};

@@ -52,7 +52,8 @@ TEST(SpaceParts, FindTheWholeSetsPairsEachOnce) {
   }
 }
 
-// A box is in the parts from where it begins to where it ends, also where faces lie in one place and boxes end on them.
+// A box is in all parts from the one where it begins to the one where it ends, also where several faces coincide and
+// boxes end on them.
 TEST(SpaceParts, ABoxReachesIntoThePartsFromItsBeginningToItsEnd) {
   const SpaceCut cut{0, {0.0F, 1.0F, 1.0F, 3.0F}};
   const float places[] = {-1.0F, 0.0F, 0.5F, 1.0F, 2.0F, 3.0F, 4.0F};
@@ -69,7 +70,7 @@ TEST(SpaceParts, ABoxReachesIntoThePartsFromItsBeginningToItsEnd) {
     }
 }
 
-// Faces share out beginnings, and few boxes are in two parts where they are small.
+// Faces are placed so that as many boxes begin in each part; where boxes are small, few are in two parts.
 TEST(SpaceParts, AreOfLikeSizeAndShareLittle) {
   const std::vector<Box> boxes = datasets::uniform_boxes(30'000, 1);
   const std::vector<std::uint8_t> is_static(boxes.size());
@@ -78,14 +79,14 @@ TEST(SpaceParts, AreOfLikeSizeAndShareLittle) {
   for (std::uint32_t part = 0; part < 8; ++part) {
     const std::size_t count = part_of(cut, part, boxes, is_static).boxes.size();
     EXPECT_GT(count, 3700U);
-    // 3,750 begin there, and of the part before some 31 x 31 boxes, of length 1 on average, reach over the face.
+    // 3,750 boxes begin there; of the part before, some 31 x 31 boxes, of length 1 on average, reach over the face.
     EXPECT_LT(count, 3751U + 1200U);
     dealt += count;
   }
   EXPECT_LT(dealt, 30'000U + 7U * 1200U);
 }
 
-// Plates across x: along it every box reaches over every face, along y and z hardly any.
+// Plates across x: along x every box would reach over every face, along y and z hardly any box does.
 TEST(SpaceParts, AreCutWhereFewBoxesReachOver) {
   std::vector<Box> boxes;
   for (int k = 0; k < 1000; ++k) {

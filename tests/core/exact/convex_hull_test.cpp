@@ -1,5 +1,4 @@
-// Hulls against what is known of them: closed, nothing outside, the volume of a box; and surfaces that cross
-// themselves.
+// Hulls against known properties: closed, no point outside, the volume of a box. Also surfaces that cross themselves.
 #include "core/exact/convex_hull.hpp"
 
 #include <gtest/gtest.h>

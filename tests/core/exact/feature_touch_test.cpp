@@ -52,11 +52,11 @@ MovingFeatures tilting_plane(double z_start, double z_end) {
 
 TEST(FeatureTouch, RootsThatAreNoFractions) {
   expect_touch_at(first_touch(tilting_plane(0.5, 0.5)), std::sqrt(0.5));
-  // t^2 = t - 1/4 has the double root 1/2: the vertex grazes the plane. A hair lower it does not.
+  // t^2 = t - 1/4 has the double root 1/2: the vertex grazes the plane. Slightly lower, it does not.
   expect_touch_at(first_touch(tilting_plane(-0.25, 0.75)), 0.5);
   const double hair = 0x1p-52;
   EXPECT_FALSE(first_touch(tilting_plane(-0.25 - hair, 0.75 - hair)).touches);
-  // A hair of 2^-52 higher the plane is met 2^-26 earlier.
+  // With the plane higher by 2^-52, it is met 2^-26 earlier.
   expect_touch_at(first_touch(tilting_plane(-0.25 + hair, 0.75 + hair)), 0.5 - 0x1p-26);
 }
 
@@ -92,7 +92,7 @@ TEST(FeatureTouch, ScalesAtTheEndsOfTheRange) {
   expect_touch_at(first_touch(vertex_face({0x1p-1000, 0x1p-1000, 0x1p+1000}, {0.25, 0.25, -0x1p+1000})), 0.5);
 }
 
-// The vertex (1/3, 1/3, 1/3) ends exactly on the plane x + y + z = 1. As doubles it ends a hair below it.
+// The vertex (1/3, 1/3, 1/3) ends exactly on the plane x + y + z = 1. In doubles it ends slightly below it.
 TEST(FeatureTouch, FractionsThatDoublesCannotHold) {
   RationalFeatures query = to_rational({FeatureKind::kVertexFace,
                                         {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}},

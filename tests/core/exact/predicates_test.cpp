@@ -61,8 +61,8 @@ TEST(Predicates, OrientationNearAPlaneIsThatOfWholeNumbers) {
   EXPECT_GT(on_plane, 9000);
 }
 
-// By all triples of planes: two triangles on a small lattice meet when their difference contains the origin, that is
-// when no direction among normals, edge crosses and in-plane edge normals parts them strictly.
+// By all planes of three points: two triangles on a small lattice meet when their difference contains the origin. That
+// is the case when no direction among normals, edge crosses and in-plane edge normals separates them strictly.
 bool meet_by_separating_axes(const std::array<Whole, 3>& p, const std::array<Whole, 3>& q) {
   const auto minus = [](Whole a, Whole b) { return Whole{a[0] - b[0], a[1] - b[1], a[2] - b[2]}; };
   const auto times = [](Whole a, Whole b) {

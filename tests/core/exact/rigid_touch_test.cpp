@@ -17,7 +17,8 @@
 namespace broadside::exact {
 namespace {
 
-// A bracket is a tolerance of 1e-9 of the sizes, divided by speeds of about 1; and depth is sure from 1e-8 on.
+// A bracket is as wide as the tolerance of 1e-9 of the sizes, divided by speeds of about 1; overlap is certain from a
+// depth of 1e-8 on.
 constexpr double kNarrow = 1e-6;
 
 core::Mesh box(double x, double y, double z) {
@@ -66,7 +67,8 @@ TEST(RigidTouch, ANeedleThatTurnsThroughAPlate) {
     expect_touch_at(found, expected);
     EXPECT_LT(found.measurements, 100U);
   }
-  // 2 pi a step: at the end the needle is where it was, and no sample at the ends sees that it went through.
+  // It turns by 2 pi in the step: at the end the needle is where it was, and samples at the two ends do not see that it
+  // went through.
   const RigidTouch whole = first_touch(MovingShape(needle, true), motion({0, 1, 0}, {}, {0, 0, 2 * std::numbers::pi}),
                                        MovingShape(plate, true), motion({0, 0, 0}, {}));
   expect_touch_at(whole, expected * turn / (2 * std::numbers::pi));
@@ -81,8 +83,8 @@ TEST(RigidTouch, BoxesThatFallTouchStandOrPass) {
     expect_touch_at(first_touch(shape, motion({0, 500, 0}, {0, -1000, 0}), shape, still), 0.499, 1e-9);
     EXPECT_EQ(first_touch(shape, motion({0, 3, 0}, {0, -1.5, 0}), shape, still).meeting, Meeting::kApart);
     EXPECT_EQ(first_touch(shape, motion({1.25F, 3, 0}, {0, -6, 0}), shape, still).meeting, Meeting::kApart);
-    // Face on face at the start, and then away: of solids rounding decides, and they say so; of triangles predicates
-    // do.
+    // Face on face at the start, and then away. For solids rounding decides whether they touch, and the answer says so;
+    // for triangles exact predicates decide.
     const RigidTouch away = first_touch(shape, motion({0, 1, 0}, {0, 1, 0}), shape, still);
     EXPECT_EQ(away.meeting, as_solid ? Meeting::kGraze : Meeting::kTouch);
     EXPECT_EQ(away.lower, 0.0);
@@ -100,7 +102,7 @@ TEST(RigidTouch, BoxesThatFallTouchStandOrPass) {
   EXPECT_EQ(deep.upper, 0.0);
 }
 
-// Over the other at a height of 2^-20 m, which is 550 times the tolerance of 1e-9 of both cubes' sizes.
+// One cube over the other at a height of 2^-20 m, which is 550 times the tolerance of 1e-9 of both cubes' sizes.
 TEST(RigidTouch, AMillionthApartIsApart) {
   const core::Mesh cube = box(1, 1, 1);
   for (const bool as_solid : {true, false}) {

@@ -1,4 +1,4 @@
-// The box of a body that moves and turns: closed answers, and no place of a vertex outside of it.
+// The box of a body that moves and turns: closed answers, and every place of a vertex lies inside it.
 #include "core/exact/swept_box.hpp"
 
 #include <gtest/gtest.h>
@@ -32,7 +32,8 @@ TEST(SweptBox, WithoutTurningItIsThatOfBothEnds) {
   }
 }
 
-// From -30 degrees by 100: past 0 degrees, where x is 1, and short of 90, where y would be: sin 70 degrees.
+// From -30 degrees by 100 degrees: the arc passes 0 degrees, where x is 1, and ends before 90, where y would be 1: at
+// sin 70 degrees.
 TEST(SweptBox, AnArcReachesFartherThanItsEnds) {
   RigidMotion motion = at_rest();
   const double start = -std::numbers::pi / 6.0;

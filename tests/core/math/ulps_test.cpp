@@ -1,4 +1,4 @@
-// Distances in representable numbers, expected from how IEEE 754 lays numbers out.
+// Distances counted in representable numbers; expected values follow from the layout of numbers in IEEE 754.
 #include "core/math/ulps.hpp"
 
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
-// Files that nest, share, lie about lengths, or name what is no file: each is one clear line, soon. Before these checks
-// the process ran out of stack, copied a subtree 2^24 times, waited for a FIFO, or cleared 4 GiB for a file of 20
-// bytes.
+// Files with deep nesting, shared nodes or false lengths, or that name something that is not a file. Each gives one
+// clear line, and soon. Before these checks the process ran out of stack, copied a subtree 2^24 times, waited for a
+// FIFO, or cleared 4 GiB for a file of 20 bytes.
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
@@ -67,7 +67,7 @@ class Hostile : public testing::Test {
  protected:
   Hostile() { folder_.file("data.bin", triangle_bytes()); }
 
-  // The one line, which both readers give.
+  // The one error line, which both readers give.
   std::string refused(const char* name, const std::string& content) {
     const auto path = folder_.file(name, content);
     const auto mesh = load_mesh(path);

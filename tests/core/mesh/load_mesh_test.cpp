@@ -182,8 +182,8 @@ TEST(LoadMesh, ADamagedPlyIsRefused) {
             "");
 }
 
-// assimp tries all of its readers on a file that the reader for its extension refuses. A damaged PLY file under another
-// name was so read without the check, and hung. Found by fuzzing.
+// assimp tries all of its readers on a file that the reader for its extension refuses. Without the check, a damaged PLY
+// file under another name was read in this way, and the reader hung. Found by fuzzing.
 TEST(LoadMesh, AFileIsReadAsWhatItsNameSays) {
   const TemporaryFolder folder;
   const std::string ply =

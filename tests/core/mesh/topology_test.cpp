@@ -80,7 +80,7 @@ TEST(Topology, AThirdTriangleOnAnEdgeIsNoManifold) {
 
 TEST(Topology, TwoBodiesAtOneCornerAreNoManifold) {
   Mesh mesh = both(tetrahedron(), tetrahedron({1, 0, 0}));
-  // The second one's first corner is the first one's second.
+  // The first corner of the second body is the second corner of the first.
   for (core::Triangle& t : mesh.triangles)
     for (std::uint32_t& v : t)
       if (v == 4) v = 1;

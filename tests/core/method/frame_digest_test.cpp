@@ -1,4 +1,5 @@
-// The digest of a frame's records: numbers worked out from SCHEMA.md's definition, and every field counts.
+// The digest of a frame's records: expected numbers are worked out from SCHEMA.md's definition, and every field changes
+// the digest.
 #include "core/method/frame_digest.hpp"
 
 #include <gtest/gtest.h>
@@ -31,7 +32,7 @@ Contact numbered() {
   return c;
 }
 
-// By integers of any size in Python, from the page's words.
+// Computed in Python, with integers of any size, from the page's definition.
 TEST(FrameDigest, IsThatOfItsDefinition) {
   EXPECT_EQ(body_digest(7, {1.5F, -2, 0.25F}, {1, 0, 0, 0}, {3, 4, -5}, {}), 0xa7621c9b7f6e8e4cU);
   EXPECT_EQ(body_digest(3, {1, 2, 3}, {0.5F, -0.5F, 0.5F, 0.5F}, {4, 5, 6}, {1, 2, 3}), 0x6604740b3e8adb30U);
@@ -69,7 +70,7 @@ TEST(FrameDigest, EveryNumberOfAContactCounts) {
   }
 }
 
-// States before an application repeat what earlier records say.
+// States before an application repeat what earlier records hold, so they do not count.
 TEST(FrameDigest, StatesBeforeAContactDoNot) {
   Contact c = numbered();
   c.pre_a.x.x = c.pre_b.v.z = 1;

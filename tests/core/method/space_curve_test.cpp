@@ -1,4 +1,4 @@
-// The property for which Hilbert's order is used: it visits every cell once, and each step is to a neighbouring cell.
+// The property for which Hilbert's order is used: it visits every cell once, and each step is to a neighboring cell.
 #include "core/method/space_curve.hpp"
 
 #include <gtest/gtest.h>

@@ -127,7 +127,7 @@ TEST(ProgramProtocol, RowsAreAsManyAsTheirCountAndTheRoomSay) {
   EXPECT_FALSE(read_rows_answer<broadside_pair>(bytes_of("1234567"), 5).ok()) << "no count";
 }
 
-// A scene with one triangle: each number stands where the page says.
+// A scene with one triangle: each number is at the place that the page gives for it.
 TEST(ProgramProtocol, ASceneIsSentAsThePageSays) {
   const float vertices[9] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
   const std::uint32_t triangle[3] = {0, 1, 2};

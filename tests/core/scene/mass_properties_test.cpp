@@ -1,4 +1,4 @@
-// Inertia from meshes: closed forms, the divergence theorem against them, and what no body can have.
+// Inertia from meshes: closed forms, the divergence theorem against them, and values that no body can have.
 #include "core/scene/mass_properties.hpp"
 
 #include <gtest/gtest.h>
@@ -68,7 +68,7 @@ TEST(MassProperties, ACylinderHasItsClosedFormAndItsDrawingNearlySo) {
     EXPECT_NEAR(drawn.inertia_kg_m2[k], exact.inertia_kg_m2[k], 2e-4 * exact.inertia_kg_m2[k]) << k;
 }
 
-// RIGID 2: what encloses no solid takes its convex hull's inertia, and says so.
+// RIGID 2: a mesh that encloses no solid takes its convex hull's inertia, and the result says so.
 TEST(MassProperties, AnOpenMeshTakesItsHullsAndSaysWhy) {
   const Mesh whole = datasets::box_mesh({0.5, 1.0, 2.0}, {2, 3, 4}).value();
   Mesh open = whole;
@@ -87,7 +87,7 @@ TEST(MassProperties, AnOpenMeshTakesItsHullsAndSaysWhy) {
 }
 
 TEST(MassProperties, AMeshThatCrossesItselfTakesItsHulls) {
-  // Two closed boxes, one pushed into the other: each point between is enclosed twice.
+  // Two closed boxes, one pushed into the other: each point of their overlap is enclosed twice.
   Mesh crossing = datasets::box_mesh({1, 1, 1}, {1, 1, 1}).value();
   const auto n = static_cast<std::uint32_t>(crossing.vertices.size());
   for (std::uint32_t v = 0; v < n; ++v) crossing.vertices.push_back(crossing.vertices[v] + core::Vec3{0.5F, 0, 0});

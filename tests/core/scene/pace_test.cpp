@@ -1,4 +1,4 @@
-// How fast a step begins.
+// How fast bodies move at the beginning of a step.
 #include "core/scene/pace.hpp"
 
 #include <gtest/gtest.h>
@@ -12,7 +12,7 @@ namespace {
 constexpr Vec3 kDown{0, -10, 0};
 constexpr float kStep_s = 0.01F;  // gravity gives 0.2 m/s in two steps
 
-// One body that reaches half a meter, and turns as fast as its angular momentum is large; beside one that never moves.
+// One body with a reach of half a meter, whose angular velocity equals its angular momentum, beside a static one.
 bool is_calm_at(Vec3 v, Vec3 angular_momentum, Vec3 gravity_m_s2 = kDown) {
   RigidBodies bodies;
   bodies.mass.resize(2);
@@ -37,13 +37,13 @@ TEST(Pace, IsCalmWhereGravityMakesTheFastestPointAsFastInTwoSteps) {
   EXPECT_FALSE(is_calm_at({0.11F, 0, 0}, {0, 0, 0.2F}));
 }
 
-// Without gravity nothing says how slow is slow, but what stands still is.
+// Without gravity there is no measure of slow, but a scene in which everything stands still is calm.
 TEST(Pace, WithoutGravityIsCalmWhereAllStandsStill) {
   EXPECT_TRUE(is_calm_at({}, {}, {}));
   EXPECT_FALSE(is_calm_at({0.001F, 0, 0}, {}, {}));
 }
 
-// Of the thinner of two bodies, where the other one is faster.
+// The stride is counted in half thicknesses of the thinner of two bodies, also where the thicker one is faster.
 TEST(Pace, AStrideIsCountedInHalfThicknesses) {
   RigidBodies bodies;
   bodies.mass.resize(3);

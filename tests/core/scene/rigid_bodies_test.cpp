@@ -1,4 +1,4 @@
-// What is known of a body's shape before the first step.
+// What is derived from a body's shape before the first step.
 #include "core/scene/rigid_bodies.hpp"
 
 #include <gtest/gtest.h>
@@ -28,7 +28,7 @@ core::Mesh moved(core::Mesh mesh) {
   return mesh;
 }
 
-// Moved off the origin a box is a hull, and as thick as before.
+// A box that is moved off the origin counts as a hull, and is as thick as before.
 TEST(RigidBodies, AHullIsAsThickAsTheBallAboutItsCenterOfMassThatTouchesTheNearestFace) {
   const core::Mesh box = datasets::box_mesh({0.5, 1.0, 2.0}, {1, 1, 1}).value();
   EXPECT_EQ(shape_of(box).half_thickness_m, 0.25F);

@@ -73,7 +73,7 @@ TEST(BoxFile, EachBadFileIsOneClearLine) {
   EXPECT_NE(line(folder.file("text.h5", "no HDF5")).find("not an HDF5 file"), std::string::npos);
   EXPECT_NE(line(folder.path() / "absent.h5").find("no such file"), std::string::npos);
 
-  // A later frame is seen when it is reached.
+  // An error in a later frame is found when that frame is reached.
   ASSERT_TRUE(write_boxes(path, {{good}, {{{0, 0, 0}, {kInf, 1, 1}}}}).ok());
   auto stream = make_box_stream(path.string());
   ASSERT_TRUE(stream.ok());

@@ -1,4 +1,4 @@
-// A reader trusts nothing: each file that is no trace, or no whole one, is refused with one line that says where.
+// A reader trusts nothing: each file that is no trace, or not a whole one, is refused with one line that says where.
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -30,7 +30,7 @@ class DamagedFile : public testing::Test {
     ASSERT_EQ(fault(), "") << "the file is good before it is damaged";
   }
 
-  // Has a row of everything, so that the first row of each dataset is of the first frame.
+  // The frame has a row of everything, so that the first row of each dataset belongs to the first frame.
   static void make_first(FrameRecord& f) {
     Bits bits(2);
     f.pairs = f.confirmed = f.measured = {{0, 1}};
@@ -119,8 +119,8 @@ TEST_F(DamagedFile, OfAnotherFormatVersion) {
 }
 
 TEST_F(DamagedFile, WithoutAnyOneOfItsDatasets) {
-  // What a trace may leave out (SCHEMA.md): an engine's own names of its points, in how many parts a step was taken,
-  // and the orientation that was detected.
+  // What a trace may leave out (SCHEMA.md): an engine's own names of its points, the number of parts of a step, and the
+  // orientation at detection.
   const std::set<std::string> optional{"/trace/point/feature", "/trace/point/parts", "/trace/detection/orientation"};
   const std::string good = bytes();
   for (const RawItem& item : raw_items(path_)) {
@@ -175,7 +175,7 @@ TEST_F(DamagedFile, WhoseOffsetsAreWrong) {
 }
 
 TEST_F(DamagedFile, WhoseStepsDoNotRise) {
-  // The second frame is of step 1. After 7 the steps fall; after 1 the same step is there twice.
+  // The second frame is of step 1. With 7 in its place the steps decrease; with 1 the same step is there twice.
   for (const std::uint64_t step : {7U, 1U}) {
     raw_overwrite(path_, "/trace/step", &step, sizeof step);
     expect_fault({"/trace/step", "do not rise"});
@@ -234,7 +234,7 @@ TEST_F(DamagedFile, ThatLinksToAnotherFile) {
   expect_fault({"/trace/digest", "missing"});
 }
 
-// A trace of somebody else's: no stamp but the engine, no digest of the scene, no statistics.
+// A trace from another program: no stamp but the engine, no digest of the scene, no statistics.
 TEST_F(DamagedFile, OrOnlyForeignIsRead) {
   for (const RawItem& item : raw_items(path_)) {
     const bool is_stamp = item.path.rfind("/provenance@", 0) == 0 && item.path != "/provenance@engine";

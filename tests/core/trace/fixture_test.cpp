@@ -22,9 +22,10 @@ using namespace core;
 constexpr std::uint32_t kFixtureBodies = 3;
 constexpr std::uint64_t kFixtureFrames = 4;
 
-// Over every row of every array, dataset by dataset in the order of their names; one that a file lacks adds nothing.
+// Over every row of every array, dataset by dataset in the order of their names; a dataset that a file lacks adds
+// nothing.
 std::uint64_t content_digest(const FrameRecord& frame) {
-  // States in float32 and in float64 have one path.
+  // Datasets in float32 and in float64 have the same path.
   std::vector<const Column*> sorted;
   for (const Column& c : columns())
     if (c.layout == Layout::kRows || c.layout == Layout::kFrameBodies) sorted.push_back(&c);

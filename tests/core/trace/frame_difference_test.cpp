@@ -66,7 +66,7 @@ TEST(FrameDifference, NamesTheDatasetRowAndElementOfEveryFlippedBit) {
         c.records == Records::kPairs || c.records == Records::kConfirmed || c.records == Records::kMeasured;
     const bool is_id = c.path == "/trace/contact/a" || c.path == "/trace/contact/b" || c.path == "/trace/point/a" ||
                        c.path == "/trace/point/b";
-    if (is_pair || is_id) continue;  // other bodies are another pair: see below
+    if (is_pair || is_id) continue;  // other bodies make another pair: see below
     const FrameRecord& good = records_of(narrow, c.records).count > 0 ? narrow : wide;
     for (std::uint32_t e = 0; e < c.width; ++e) {
       FrameRecord bad = good;
@@ -137,7 +137,7 @@ TEST(FrameDifference, OfContactsIsAnotherContactOrAMissingOne) {
   EXPECT_EQ(d->bodies, (std::array<std::uint32_t, 2>{1, 3}));
 }
 
-// In the order of the pipeline: what went in comes before what came out.
+// In the order of the pipeline: a stage's input comes before its output.
 TEST(FrameDifference, IsTheOneNearestToItsCause) {
   const FrameRecord a = full_frame();
   FrameRecord b = a;

@@ -22,7 +22,7 @@ using namespace core;
 constexpr int kNoMount = 77;
 constexpr std::uint32_t kLargeFrameBodies = 50;
 
-// Writes random frames until the disk refuses; the line of the error, "" when it never did.
+// Writes random frames until the disk is full. Returns the error line, "" when there never was one.
 std::string write_too_much(const std::filesystem::path& path, bool flushes) {
   auto writer = TraceWriter::create(path, header_of(tetrahedra_scene(kLargeFrameBodies), kAllGroups));
   if (!writer) return writer.error().line();
@@ -41,7 +41,7 @@ std::string write_too_much(const std::filesystem::path& path, bool flushes) {
   return end ? "" : end.error().line();
 }
 
-// Runs in a child process whose exit handlers run, HDF5's among them; it prints what it saw and exits.
+// Runs in a child process and ends it so that exit handlers run, HDF5's among them. Prints what was seen.
 [[noreturn]] void report(const std::string& line, const std::filesystem::path& path) {
   std::cerr << line << '\n';
   if (std::filesystem::exists(path)) std::cerr << "the final name exists\n";
@@ -88,7 +88,7 @@ class FullDisk : public testing::TestWithParam<bool> {
   const Folder folder_;
 };
 
-// The one line, nothing about a difference, and the frames before it are still there.
+// The one line contains no hint at a difference, and the frames before the error are still there.
 constexpr const char* kLimitLine =
     "^[^\n]*t.h5.part: writing frame [^\n]*larger than this process may write[^\n]*broadside recover t.h5.part\nleft "
     "some frames\n$";

@@ -1,4 +1,4 @@
-// Files made to do harm: each is refused in one line, without more memory than its size explains, or read correctly.
+// Files made to do harm: each is refused in one line, without more memory than its size explains, or is read correctly.
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -19,8 +19,8 @@ namespace {
 
 using namespace core;
 
-// Memory that a process may take for opening a trace of some 100 KiB: enough for its largest honest content, a
-// thousandfold inflation, and for HDF5's own tables.
+// The memory that a process may take for opening a trace of some 100 KiB: enough for the largest honest content, which
+// inflates a thousandfold, and for HDF5's own tables.
 constexpr std::uint64_t kRoom = 512U << 20U;
 
 // Under a sanitizer the address space is taken from the start, so a limit would mean nothing.
@@ -275,7 +275,7 @@ TEST_F(HostileFile, OfAnotherRankIsRefused) {
   expect_refused({"/scene/mesh/name", "list of fixed-length strings"});
 }
 
-// A filter of somebody's plugin.
+// A filter of a third-party plugin.
 TEST_F(HostileFile, ThroughAFilterThatIsNotHereIsRefused) {
   constexpr H5Z_filter_t kOwn = 40000;
   const H5Z_class2_t filter{
@@ -295,7 +295,8 @@ TEST_F(HostileFile, ThroughAFilterThatIsNotHereIsRefused) {
   expect_refused({"/trace/digest", "filter"});
 }
 
-// Shrinks whole numbers to their significant bits. It has a decoder of its own, which traces never need.
+// A filter of HDF5's own that shrinks whole numbers to their significant bits. It has a decoder, which traces never
+// need.
 TEST_F(HostileFile, ThroughAnotherFilterOfHdf5IsRefused) {
   const Handle filtered = chunked({5});
   H5Pset_scaleoffset(filtered.get(), H5Z_SO_INT, 0);

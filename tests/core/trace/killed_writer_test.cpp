@@ -84,7 +84,7 @@ void kill_often(int tries, std::uint32_t seed) {
     const Folder folder;
     frames += kill_and_read(folder, std::chrono::microseconds(random() % 300000));
   }
-  // On a crowded machine perhaps none lived long enough to flush anything.
+  // On a crowded machine perhaps no writer lived long enough to flush anything.
   for (int ms = 300; frames == 0 && ms < 20000 && !testing::Test::HasFailure(); ms *= 2) {
     const Folder folder;
     frames = kill_and_read(folder, std::chrono::milliseconds(ms));

@@ -51,7 +51,7 @@ struct Flush {
   }
   // The file as a kill leaves it once the journal is there and this many pages are in place.
   void leave(const std::filesystem::path& path, std::size_t pages_in_place) const {
-    // What lies behind the old content's last page goes to disk at once.
+    // Bytes behind the old content's last page go to disk at once.
     std::string left = old_content;
     left.resize(kNewBytes);
     left.replace(6 * kPageBytes, 7, new_content.substr(6 * kPageBytes));
@@ -128,8 +128,8 @@ std::size_t committed_with(PartFile& file, const std::filesystem::path& path, st
   return was_enough ? read(path).size() : 0;
 }
 
-// Two pages cannot be written as one, so a kill between them needs the journal: no room for it, no commit. One page
-// needs none.
+// Two pages cannot be written as one, so a kill between the two writes needs the journal: without room for a journal
+// there is no commit. A single page needs none.
 TEST(PartFile, TwoPagesAreJournalledAndOneIsNot) {
   for (const std::size_t pages : {1U, 2U, 3U}) {
     const Folder folder;

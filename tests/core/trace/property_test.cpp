@@ -111,7 +111,7 @@ TEST(Property, WhatIsWrittenIsWhatIsRead) {
     auto writer = TraceWriter::create(folder / "t.h5", header_of(tetrahedra_scene(bodies), kStatesAndContacts));
     RC_ASSERT(writer.ok());
     for (const FrameRecord& f : frames) {
-      // Whole chunks that skip the filters, or rows that go through them: no reader sees a difference.
+      // Whole chunks that skip the filters, or rows that go through the filters: no reader sees a difference.
       writer.value().hurry(*rc::gen::arbitrary<bool>());
       RC_ASSERT(writer.value().append(f).ok());
       if (*rc::gen::inRange(0, 3) == 0) RC_ASSERT(writer.value().flush().ok());
@@ -134,7 +134,7 @@ TEST(Property, AStreamWithAQueueOfAnySizeWritesTheSame) {
   }));
 }
 
-// As a big-endian reader sees it: the file says that it is little-endian, and its bytes are.
+// As a big-endian reader sees it: the file is marked as little-endian, and its bytes are in that order.
 TEST(Property, NumbersLieLittleEndianInTheFile) {
   const Folder folder;
   auto writer = TraceWriter::create(folder / "t.h5", header_of(tetrahedra_scene(1), bit(Group::kBodies)));

@@ -1,4 +1,4 @@
-// Accesses a trace with HDF5 itself, to damage it or to see its content without the code under test.
+// Accesses a trace through HDF5 itself, to damage it or to see its content without the code under test.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -18,7 +18,7 @@ struct RawItem {
   std::string path;  // "/trace/step", "/scene@dt_s"
   std::vector<std::uint64_t> shape;
   std::string type;  // "f32", "u64", "str"; "?" for anything that the schema does not know
-  std::string unit;  // of a dataset; "" when it says none
+  std::string unit;  // of a dataset; "" when it has none
 };
 
 inline Handle raw_open(const std::filesystem::path& file) {

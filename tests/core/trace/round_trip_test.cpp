@@ -69,8 +69,8 @@ INSTANTIATE_TEST_SUITE_P(
                     Case{"larger_than_a_chunk", 40000, 3, bit(Group::kBodies) | bit(Group::kDetection), 1}),
     [](const auto& row) { return row.param.name; });
 
-// A mesh of a megabyte, which gzip does not shrink, made the writer copy the file once more, and the copy lacked the
-// declaration: determinism then had no twin to compare.
+// Because of a mesh of a megabyte, which gzip does not shrink, the writer copied the file once more, and the copy
+// lacked the declaration: determinism then had no twin to compare with.
 TEST(RoundTrip, ACompactedFileHasEveryGroup) {
   const Folder folder;
   Scene scene = tetrahedra_scene(4);

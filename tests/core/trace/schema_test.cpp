@@ -1,4 +1,4 @@
-// SCHEMA.md says exactly what is in a trace: nothing more, nothing less.
+// SCHEMA.md lists exactly what is in a trace: nothing more, nothing less.
 #include <gtest/gtest.h>
 
 #include <fstream>

@@ -80,7 +80,7 @@ TEST(Stream, OneThatGoesOutOfScopeKeepsWhatWasQueued) {
   expect_streamed_frames(folder / "t.h5.part", frames);
 }
 
-// The disk refuses on the other thread; append or finish returns that error as one and the same line.
+// The disk refuses a write on the other thread; append or finish returns that same error line.
 TEST(Stream, AnErrorOfTheThreadReachesTheRun) {
   const Folder folder;
   const auto write_with_limit = [&folder] {

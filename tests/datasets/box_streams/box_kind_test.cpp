@@ -26,7 +26,8 @@ TEST(BoxKind, OfEqualCubesOnALattice) {
   EXPECT_EQ(kind.size_ratio(), 1.0);
   EXPECT_EQ(kind.flatness, 1.0);
   EXPECT_EQ(kind.thin_share, 0.0);
-  // Eight a cell in each of 8^3 cells: half of the boxes are in half of them, but for cells that the lattice cuts.
+  // Eight boxes a cell in each of 8^3 cells: half of the boxes are in half of the cells, except for cells that the
+  // lattice cuts.
   EXPECT_NEAR(kind.cells_of_half, 0.5, 0.15);
 }
 
@@ -44,7 +45,7 @@ TEST(BoxKind, OfSizesFromOneToAThousand) {
   EXPECT_GT(kind.size_ratio(), 800.0 / 1.2);
 }
 
-// Heaps lie in a corner a sixty-fourth as wide as the world.
+// The boxes of heaps lie in a corner that is a sixty-fourth as wide as the world.
 TEST(BoxKind, OfClustersAndOfNone) {
   const double even = kind_of(datasets::uniform_boxes(20'000, 1)).cells_of_half;
   // Of cells with 8 boxes on average, the fullest that hold half: some 0.38 of a Poisson distribution.

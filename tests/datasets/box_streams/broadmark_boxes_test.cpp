@@ -87,7 +87,7 @@ TEST(Broadmark, BrownianStirsOnePercentAFrame) {
     ASSERT_LE(distance(a, b), 0.75 * kWidth / 30.0 * std::sqrt(3.0) + 1e-4);
     bent += distance(c, b + (b - a)) > 1e-3 ? 1 : 0;
   }
-  // The second frame's 20, and no wall is within two frames of the ball's edge for most of the rest.
+  // The 20 that the second frame changes. Most of the rest are farther from every wall than they fly in two frames.
   EXPECT_GE(bent, 20);
   EXPECT_LE(bent, 60);
 }
@@ -96,7 +96,7 @@ TEST(Broadmark, FreefallFallsByGravityAndThenLiesStill) {
   BoxStream stream = stream_of("freefall:spheres");
   std::vector<Box> boxes = next(stream, stream.boxes);
   const std::vector<Box> two = next(stream, boxes);
-  // Twice the same step but for g dt^2; the velocity's cap and the walls spare most.
+  // The two steps differ by g dt^2 alone, except for the few boxes that the velocity's cap or a wall affects.
   int falling = 0;
   for (std::size_t n = 0; n < kBroadmarkCount; ++n) {
     const double bend = double{two[n].min.y} - 2.0 * boxes[n].min.y + stream.boxes[n].min.y;

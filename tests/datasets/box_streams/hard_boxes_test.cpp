@@ -120,7 +120,7 @@ TEST(SliverBoxes, AreAThousandTimesLongerThanThickAndMeetEightOthers) {
 }
 
 TEST(SpiralBoxes, OverlapAlongTheCurve) {
-  // Each with the next, at least.
+  // Each overlaps at least the next one.
   EXPECT_GT(agreed_pairs(datasets::spiral_boxes(5000, 1)), 4990U);
 }
 
@@ -160,7 +160,7 @@ TEST(MeshBoxes, AreTheTrianglesOfEachCopy) {
       }
   const Boxes three = datasets::mesh_boxes(mesh.value(), 3, 1);
   ASSERT_EQ(three.size(), 3 * triangles);
-  // A turn keeps what is shared: the triangles around a vertex still touch in it.
+  // A turn keeps shared vertices: the triangles around a vertex still touch there.
   EXPECT_GE(agreed_pairs(three), 3 * agreed_pairs(one) / 2);
 }
 

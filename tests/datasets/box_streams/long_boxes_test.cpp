@@ -1,4 +1,4 @@
-// What is said of a set in which a box is far longer than the rest.
+// The message about a set in which one box is far longer than the rest.
 #include "datasets/box_streams/long_boxes.hpp"
 
 #include <gtest/gtest.h>

@@ -90,7 +90,7 @@ TEST_P(Family, TakesModelSizeFramesAndSeed) {
   EXPECT_EQ(core::scene_digest(scene), core::scene_digest(family_scene(scene.name)));
 }
 
-// The same bodies, which may turn; and an engine whose bodies do not is told so by the motion.
+// The same bodies may turn; an engine whose bodies do not turn learns it from the scene's motion.
 TEST_P(Family, MayTurn) {
   const Scene still = family_scene(name("cube", 12));
   const Scene turning = family_scene(name("cube", 12, "[rigid=1]"));
@@ -105,7 +105,8 @@ TEST_P(Family, TheTwinRunsItAndNoVerdictFails) {
   Scene scene = family_scene(name("cube", 12));
   scene.frames = 60;
   for (const core::Verdict& v : tests::verdicts_of(scene)) {
-    // Bodies of one place are moved apart by up to a side in one step, some of them through others; the law says so.
+    // Bodies that start in one place are moved apart by up to a side in one step, some of them through others, and the
+    // law is right to report it.
     const bool is_true_finding = GetParam() == "same-point" && v.validator == "passage";
     EXPECT_EQ(v.outcome == core::Outcome::kFail, is_true_finding) << v.validator << ": " << v.explanation;
   }
@@ -119,7 +120,8 @@ TEST_P(Family, ComesBackFromAFileAsTheSameScene) {
   EXPECT_EQ(core::scene_digest(family_scene((folder.path() / "s.toml").string())), core::scene_digest(scene));
 }
 
-// The same family from a file's generator: it brings bodies, parts, gravity and domain, unless the file gives them.
+// A scene file can name the same family as its generator, which sets bodies, parts, gravity and domain unless the file
+// gives them.
 TEST_P(Family, IsAGeneratorOfSceneFiles) {
   const tests::TemporaryFolder folder;
   const std::string common = "seed = 1\n[[mesh]]\nname = \"cube\"\ncatalogue = \"cube\"\nlongest_side_m = 1.0\n";

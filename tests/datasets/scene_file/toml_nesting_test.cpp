@@ -1,5 +1,5 @@
-// Depth of a TOML text, against texts whose depth is plain, and what a scene file that nests too deeply is told. A name
-// of 50,000 parts ended the program by a segmentation fault.
+// How deep a TOML text nests, for texts whose depth is known, and the error for a scene file that nests too deeply. A
+// name of 50,000 parts once ended the program by a segmentation fault.
 #include "datasets/scene_file/toml_nesting.hpp"
 
 #include <gtest/gtest.h>

@@ -31,13 +31,14 @@ bool is_apart(const PairFinder& finder) {
   return finder.path().starts_with("static boxes in a table that is kept");
 }
 
-// Every second box, and each of them mirrored: static and moving ones in each other's places.
+// Every second box is static; with the other value of `first`, static and moving boxes change places.
 tests::BoxCase half_static(tests::BoxCase c, std::size_t first) {
   for (std::size_t k = 0; k < c.is_static.size(); ++k) c.is_static[k] = k % 2 == first ? 1 : 0;
   return c;
 }
 
-// Moving boxes that follow each other get their numbers by the first one's, others by a look each.
+// Where the ids of moving boxes follow each other, they are counted from the first one's id; otherwise each is looked
+// up.
 TEST(ApartOnHost, MovingBoxesBehindOrBeforeTheStaticOnes) {
   for (const bool are_static_first : {false, true}) {
     tests::BoxCase c;
@@ -114,11 +115,11 @@ TEST(ApartOnHost, TheStaticTableIsKeptWhileItsBoxesRest) {
   auto counts = tests::counts_of(finder);
   EXPECT_EQ(counts["broad: static tables built"], 2U) << "one box of it moved in the third update";
   EXPECT_EQ(counts["broad: static boxes kept"], 3U * 150U);
-  // Both builds, and the moving boxes of each update.
+  // Both builds of the static table, and the moving boxes of each update.
   EXPECT_EQ(counts["bytes to the device"], (2U * 150U + 5U * 150U) * 32U);
 }
 
-// Coarse cells tell which moving boxes are near nothing that stands. They are as large as the largest box of the first
+// Coarse cells show which moving boxes are near no static one. The cells are as large as the largest box of the first
 // frame; boxes that grow, or that lie around and below the origin, are found all the same.
 TEST(ApartOnHost, MovingBoxesOnBothSidesOfTheOriginThatGrow) {
   tests::Draw draw(8);

@@ -1,4 +1,5 @@
-// What threads of a block hand to each other in packed words, and what a warp decides together: against counting.
+// Packed words by which threads of a block exchange results, and the choice that a warp makes together, against plain
+// counting.
 #include <gtest/gtest.h>
 
 #include <limits>

@@ -1,4 +1,4 @@
-// Boxes that lie on the device are packed and measured there, and give the pairs that boxes of the host give. Here the
+// Boxes in device memory are packed and measured there, and give the pairs that boxes in host memory give. Here the
 // device is the host.
 #include <gtest/gtest.h>
 
@@ -71,7 +71,7 @@ TEST(DeviceBoxesOnHost, GiveTheOverlappingPairs) {
     PairFinder finder(options);
     const auto flags = some_static(300);
     for (std::uint32_t seed = 1; seed <= 3; ++seed) {
-      // The third is far away and wider: other cells, in the tables that the second left.
+      // The third set is far away and wider: it uses other cells, in the tables that the second set left.
       std::vector<Box> boxes = boxes_of(300, seed == 3 ? 24.0F : 12.0F, seed);
       for (Box& box : boxes)
         if (seed == 3) box = core::translated(box, {1000.0F, -500.0F, 0.0F});
@@ -149,7 +149,7 @@ TEST(OrderedBits, FollowTheOrderOfFloats) {
   EXPECT_GT(ordered_bits(-std::numeric_limits<float>::max()), BoxMeasure{}.largest_side);
 }
 
-// Passes and cells are those that the same boxes of the host would have.
+// Passes and cells are chosen as for the same boxes in host memory.
 TEST(DeviceBoxesOnHost, HavePassesWhereTheyAreLongAndThin) {
   PairFinderOptions options = starting_at(50, 1U << 30);
   options.least_for_passes = 100;
@@ -166,7 +166,7 @@ TEST(DeviceBoxesOnHost, HavePassesWhereTheyAreLongAndThin) {
   ASSERT_TRUE(by_device.update_on_device(lying(second)).ok());
   EXPECT_EQ(by_device.plan().passes.size(), by_host.plan().passes.size());
   EXPECT_EQ(found_by(by_device), overlapping(second, flags));
-  // Another set of boxes is looked at anew.
+  // A new set of boxes is measured anew.
   const std::vector<Box> plain = boxes_of(300, 12.0F, 1);
   ASSERT_TRUE(by_device.load_on_device(lying(plain), some_static(300)).ok());
   EXPECT_TRUE(by_device.plan().is_plain());

@@ -1,5 +1,5 @@
-// Digests of frames that are copied while the next ones are computed, as a recorded run asks for them: they come later
-// than the frame, and are octree-cpu's.
+// Digests of frames that are copied while the next frames are computed, as a recorded run asks for them. They arrive
+// later than the frame, and equal octree-cpu's.
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -18,7 +18,7 @@ namespace {
 
 using Digests = std::vector<std::uint64_t>;
 
-// Of the initial state, then after every `every` steps.
+// The digest of the initial state, then one after every `every` steps.
 Digests digests_of_twin(const core::Scene& scene, const Given& given, int frames, int every) {
   const std::unique_ptr<core::Dynamics> twin = twin_of(given);
   EXPECT_TRUE(twin->load(scene).ok());
@@ -58,8 +58,8 @@ Digests digests_of_copies(const core::Scene& scene, Pipeline& subject, int frame
   return digests;
 }
 
-// The host's grid has two blocks of 64 threads: 40 bodies are resolved by one block, 80 by a thread each, 150 by
-// the thread that comes to a contact last.
+// The host's grid has two blocks of 64 threads: with 40 bodies one block resolves contacts, with 80 there is a thread
+// for each body, and with 150 the thread that reaches a contact last applies it.
 TEST(DigestOnHost, OfEveryKindOfFrame) {
   struct Case {
     const char* name;
@@ -100,8 +100,8 @@ TEST(DigestOnHost, OfEveryKindOfFrame) {
   }
 }
 
-// Ten bodies lie in each other; a wide lattice of eighty more comes to the same place in the second frame, whose
-// buffers are too small. It is repeated while the digest of the first one's contacts is due.
+// Ten bodies lie in each other; a wide lattice of eighty more arrives at the same place in the second frame, whose
+// buffers are too small. That frame is repeated while the digest of the first frame's contacts is still due.
 TEST(DigestOnHost, WhileBuffersGrow) {
   SceneShape shape;
   shape.bodies = 90;

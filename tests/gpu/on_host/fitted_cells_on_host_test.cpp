@@ -1,4 +1,4 @@
-// Cells that are larger than the largest box must be change no pair, and are chosen where they save tests.
+// Cells may be larger than the largest box requires. That changes no pair, and it is chosen where it saves tests.
 #include <gtest/gtest.h>
 
 #include <map>
@@ -29,7 +29,7 @@ PairFinderOptions in_bulk(float cell_scale) {
   return options;
 }
 
-// What finding them tests; `scale` 0: fitted.
+// How many box tests finding the pairs takes; `scale` 0: cells are fitted to the boxes.
 std::uint64_t tests_with(const tests::BoxCase& c, float scale) {
   PairFinder finder(in_bulk(scale));
   finder.count_work();
@@ -51,7 +51,7 @@ TEST(FittedCellsOnHost, ChangeNoPairOfAnyFamily) {
   }
 }
 
-// Cells that are shorter along x, and levels that are farther apart, by one lane a box and by several.
+// Cells that are shorter along x, and levels that are farther apart, with one lane a box and with several.
 TEST(FittedCellsOnHost, OfEveryShapeChangeNoPairOfAnyFamily) {
   for (const tests::BoxFamily& family : tests::kBoxFamilies) {
     SCOPED_TRACE(family.name);
@@ -75,7 +75,7 @@ TEST(FittedCellsOnHost, OfEveryShapeChangeNoPairOfAnyFamily) {
   }
 }
 
-// Sizes over many octaves, few boxes of each: looking at every level costs more than cells that are too large.
+// Sizes over many octaves, with few boxes of each: looking at every level costs more than cells that are too large.
 TEST(FittedCellsOnHost, LevelsAreFartherApartWhereRowsOfCellsAreNearlyEmpty) {
   using Make = std::vector<Box> (*)(std::uint32_t, std::uint64_t);
   const std::pair<Make, std::uint32_t> sets[] = {
@@ -88,7 +88,7 @@ TEST(FittedCellsOnHost, LevelsAreFartherApartWhereRowsOfCellsAreNearlyEmpty) {
   }
 }
 
-// Boxes a little longer than a quarter of the largest are nearly four times shorter than their cells.
+// Boxes a little longer than a quarter of the largest one are nearly four times shorter than their cells.
 TEST(FittedCellsOnHost, SaveTestsWhereMostBoxesAreMuchShorterThanTheirCells) {
   tests::Draw draw(3);
   tests::BoxCase c;
@@ -112,9 +112,9 @@ TEST(FittedCellsOnHost, AreTheLargestBoxsWhereThatIsBest) {
   EXPECT_EQ(bulk_fit({}, {}).cell_scale, 1.0F);
 }
 
-// A thousand of a million boxes are no neighbors of each other, but a thousand have some in a larger sample.
-// Boxes whose cells have many others, on one level; of sizes over three orders a box meets as many, a few on each
-// level.
+// A sample of a thousand of a million boxes has no neighbors in it, but the thousand have some in a larger sample.
+// Boxes whose cells hold many others on one level get four lanes. With sizes over three orders a box meets as many
+// others, but few on each level.
 TEST(FittedCellsOnHost, FourLanesWhereRowsOfCellsAreLong) {
   FactsOfBoxes crowded;
   FactsOfBoxes mixed;
@@ -126,7 +126,7 @@ TEST(FittedCellsOnHost, FourLanesWhereRowsOfCellsAreLong) {
   EXPECT_EQ(bulk_fit(sizes, mixed.all()).lanes_per_box, 1U);
 }
 
-// By groups where a box has far more others in its cells than partners.
+// The search by groups is chosen where a box has far more others in its cells than partners.
 TEST(FittedCellsOnHost, GroupsWhereCellsAreFull) {
   const auto is_grouped = [](const std::vector<Box>& boxes) {
     FactsOfBoxes facts;
@@ -145,7 +145,7 @@ TEST(FittedCellsOnHost, AreFoundOutOfAMillionBoxesToo) {
   std::vector<Box> boxes = datasets::uniform_boxes(kMany, 1);
   for (const Box& box : boxes) facts.add(box);
   EXPECT_EQ(bulk_fit(boxes, facts.all()).cell_scale, 1.0F);
-  // Around the origin, nearly four times shorter than the largest one.
+  // Boxes around the origin, nearly four times shorter than the largest one.
   tests::Draw draw(3);
   boxes.clear();
   for (std::uint32_t k = 0; k < kMany; ++k) {
@@ -159,8 +159,8 @@ TEST(FittedCellsOnHost, AreFoundOutOfAMillionBoxesToo) {
   EXPECT_EQ(fit.lanes_per_box, 1U) << "there are enough boxes for all lanes";
 }
 
-// A crowd in a world that is 200,000 times as wide as a box: cells were made half as large again as the boxes, because
-// of the coordinates alone, and a crowd far from the origin has but a few bits for where a box is.
+// A crowd in a world that is 200,000 times as wide as a box. Once, cells were made half as large again as the boxes,
+// only because of the large coordinates; and for a crowd far from the origin few bits are left to say where a box is.
 TEST(FittedCellsOnHost, AreNoLargerInAWideWorld) {
   constexpr float kFar = 200'000.0F;
   for (const float at : {0.0F, kFar}) {

@@ -1,4 +1,4 @@
-// What a finder gives: all pairs at once, or chunk by chunk.
+// Reads a finder's pairs: all at once, or chunk by chunk.
 #pragma once
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// Columns as they lie on the device are those that are read back. Here the device is the host.
+// Columns in device memory equal those that are read back. Here the device is the host.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -85,7 +85,7 @@ TEST(FrameOnDeviceOnHost, OfTranslatingBodiesIsWhatIsReadBack) {
   EXPECT_GT(pairs_seen, 0U);
 }
 
-// Returns how many parts its steps had at most.
+// Returns the largest number of parts in which a step was taken.
 std::uint32_t expect_what_is_read_back(const core::Scene& scene, int steps) {
   PipelineByMotion pipeline = octree_gpu();
   EXPECT_TRUE(pipeline.load(scene).ok());
@@ -123,7 +123,7 @@ TEST(FrameOnDeviceOnHost, OfTurningBodiesIsWhatIsReadBack) {
   EXPECT_EQ(expect_what_is_read_back(made.value(), 5), 1U);
 }
 
-// Whose parts are put together on the host.
+// A step in parts, whose parts are put together on the host.
 TEST(FrameOnDeviceOnHost, OfAStepInPartsIsWhatIsReadBack) {
   auto made = datasets::make_scene("rigid:stack:5", {});
   ASSERT_TRUE(made.ok());

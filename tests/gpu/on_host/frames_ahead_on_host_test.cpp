@@ -1,5 +1,6 @@
-// Frames that are launched before the host has seen the one before. Here a launch returns when it is done, so a frame
-// behind an aborted one always runs before the host knows of it. tests/gpu does the same with a real queue.
+// Frames that are launched before the host has seen the frame before them. Here a launch returns when it is done, so a
+// frame behind an aborted one always runs before the host learns of the abort. tests/gpu does the same with a real
+// queue.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -49,8 +50,9 @@ TEST(FramesAheadOnHost, MoreBodiesThanThreads) {
   expect_same_steps(thrown({box_mesh({0.5F, 0.5F, 0.5F}), box_mesh({0.02F, 0.03F, 0.02F})}, shape), options, 4);
 }
 
-// Pairs, and later contacts with faces, are more than there is room for while a frame is already behind: it does
-// nothing, and the aborted one is repeated from the state that it would have overwritten.
+// There are more pairs, and later more contacts with faces, than there is room for, while the next frame is launched
+// already. That frame does nothing, and the aborted one is repeated from the state that the next frame would have
+// overwritten.
 TEST(FramesAheadOnHost, BuffersGrowInTheMiddle) {
   const core::Scene together = flying_together(110, 5.0F);
   EXPECT_GT(expect_same_steps(together, boxes_alone(), 9), 0U);
@@ -66,7 +68,8 @@ TEST(FramesAheadOnHost, BuffersGrowInTheMiddle) {
   EXPECT_EQ(subject.counters()[0].count, 9 + subject.repeated_frames()) << "frames that did nothing do not count";
 }
 
-// A step more may have been under way; from there on it goes on, one by one or not, and says which step it is.
+// When the run is told to end, one step more may be under way. Afterwards the pipeline goes on from its last step, one
+// by one or ahead, and says which step that is.
 TEST(FramesAheadOnHost, EndWhereTheyAreToldTo) {
   const core::Scene scene = coarse_spheres(40, 2.5F);
   for (const std::uint64_t told : {1U, 3U, 9U, 10U}) {
@@ -90,7 +93,8 @@ TEST(FramesAheadOnHost, EndWhereTheyAreToldTo) {
   }
 }
 
-// The frame that it was told to end at is not the last one, and that one is aborted: it is repeated all the same.
+// The run is told to end at a frame while a later one is under way, and that later one is aborted: it is repeated all
+// the same.
 TEST(FramesAheadOnHost, EndBeforeAnAbortedFrame) {
   const core::Scene scene = flying_together(110, 5.0F);
   Pipeline one_by_one(boxes_alone());
@@ -126,7 +130,8 @@ TEST(FramesAheadOnHost, BesideThoseOfAnotherPipeline) {
   EXPECT_GT(b.repeated_frames(), 0U);
 }
 
-// A frame's digest that nobody took yet is not that of a later one; and one asked for in the rhythm of before is new.
+// A digest that was not fetched is not mistaken for that of a later frame; and a digest asked for at the earlier
+// interval is computed anew.
 TEST(FramesAheadOnHost, DigestsAskedForAround) {
   const core::Scene scene = coarse_spheres(40, 2.5F);
   Pipeline subject(PipelineOptions{});
@@ -171,7 +176,7 @@ TEST(FramesAheadOnHost, WorkIsCountedWhereItIsAskedFor) {
   EXPECT_EQ(counts[0], counts[1]);
 }
 
-// Whatever the order in which threads come.
+// Threads may come in any order.
 TEST(FramesAheadOnHost, AnyOrderOfThreads) {
   for (const char* seed : {"1", "2", "3"}) {
     ASSERT_EQ(setenv("BROADSIDE_ON_HOST_SEED", seed, 1), 0);

@@ -1,4 +1,4 @@
-// The kernels of continuous collision on fibers of the host: the bits of one query after the other.
+// The kernels of continuous collision on fibers of the host give the same bits as one query after the other.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -60,7 +60,7 @@ TEST_P(ImpactsOnHost, EveryTimeHasTheSameBits) {
   }
 }
 
-// Room for one touch is too little: the finder gets more and asks again.
+// At first there is room for a single touch, which is too little: the finder gets more room and asks again.
 TEST_P(ImpactsOnHost, TheEarliestIsTheLeastOfAll) {
   FirstHit least;
   for (const auto kind : {FeatureKind::kVertexFace, FeatureKind::kEdgeEdge}) {

@@ -83,8 +83,8 @@ TEST(KeptOnHost, FramesOfSmallMotionAreNotSearched) {
   }
 }
 
-// Everything jumps in some frames, and rests in others. After searches whose pairs served nothing, boxes are searched
-// as they are.
+// In some frames every box jumps, in others all rest. After searches whose pairs served no further frame, boxes are
+// searched without fattening.
 TEST(KeptOnHost, IsExactWhereEverythingJumps) {
   tests::BoxCase c = uniform_case(300);
   KeptFinder finder({});
@@ -100,7 +100,7 @@ TEST(KeptOnHost, IsExactWhereEverythingJumps) {
   EXPECT_GT(counts["broad: frames of kept pairs"], 3U);
 }
 
-// One box that is a hair outside of its fat one, on any side, makes a search.
+// One box that is slightly outside of its fat box, on any side, causes a search.
 TEST(KeptOnHost, OneBoxThatLeavesMakesASearch) {
   for (int axis = 0; axis < 3; ++axis) {
     for (const float by : {-0.2F, 0.2F}) {

@@ -1,4 +1,4 @@
-// Which pairs of bodies meet, and how a warp goes down the levels of one: against counting and against core/method.
+// Which pairs of bodies meet, and how a warp descends the levels of a pair: against counting and against core/method.
 #include <gtest/gtest.h>
 
 #include <map>
@@ -98,7 +98,7 @@ bool descends_in_warp(const std::vector<PackedBox>& boxes, const PlacedShape& a,
   return any;
 }
 
-// So few vertices that octants are small or empty: bodies whose boxes overlap may still pass each other.
+// With so few vertices, octants are small or empty: bodies whose boxes overlap may still not meet at a deeper level.
 TEST(LevelDescent, IsThatOfTheMethod) {
   std::mt19937 random(5);
   std::uniform_real_distribution<float> shift(-1.8F, 1.8F);

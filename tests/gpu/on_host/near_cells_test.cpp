@@ -1,4 +1,5 @@
-// Cells of near vertices: whatever the place and the rounding, the nearest vertex is in the list of the point's cell.
+// Cells of near vertices: whatever the place and the rounding, the nearest vertex is in the list of the cell in which
+// the point lies.
 #include "gpu/scene/near_cells.hpp"
 
 #include <gtest/gtest.h>
@@ -21,7 +22,7 @@ struct Specimen {
   NearNeeds needs;
 };
 
-// `finest`: how much larger its theta is than that of the scene's finest shape.
+// `finest`: the ratio of this shape's theta to the theta of the scene's finest shape.
 Specimen specimen(std::uint32_t rings, float edges_in_theta, float range_m, float finest = 1.0F) {
   const std::vector<core::Vec3> vertices = bumpy_sphere(rings, 0.5F)->vertices;
   std::vector<std::uint32_t> indices(vertices.size());
@@ -36,8 +37,8 @@ Specimen specimen(std::uint32_t rings, float edges_in_theta, float range_m, floa
   return s;
 }
 
-// The cell in which a vertex of another body lies, as device code finds it: the vertex and the other body's place are
-// rounded each for itself.
+// The cell in which a vertex of another body lies, as device code finds it: the vertex and the other body's position
+// are rounded separately.
 std::size_t cell_of(const NearCells& cells, core::Vec3 vertex, core::Vec3 other_from_this) {
   const core::Vec3 origin = cells.quanta_per_m * (other_from_this - cells.low);
   const std::uint32_t count[] = {cells.count_x, cells.count_y, cells.count_z};
@@ -51,7 +52,8 @@ std::size_t cell_of(const NearCells& cells, core::Vec3 vertex, core::Vec3 other_
                     static_cast<std::uint32_t>(at[2]), cells.stride_y, cells.stride_z);
 }
 
-// A vertex of another body and a place of this one, both up to range_m from the origin: all vertices against the list.
+// Compares all vertices with the list, for a vertex of another body and a place of this one that are both up to range_m
+// from the origin.
 void compare_with_all(const Specimen& s, std::uint64_t seed, float range_m) {
   const NearCells& cells = s.cells.headers.front();
   Dice dice(seed);
@@ -98,7 +100,8 @@ TEST(NearCells, HoldTheNearestVertexOfEveryPoint) {
   }
 }
 
-// Beside a finer shape: quanta are its, and a cell has as many as make it no larger than half of theta.
+// Beside a finer shape: quanta are those of the finer shape, and a cell spans as many of them as keep it no larger than
+// half of theta.
 TEST(NearCells, HaveTheQuantaOfTheFinestShape) {
   for (const float finest : {1.2F, 2.0F, 3.0F}) {
     SCOPED_TRACE(finest);
@@ -111,7 +114,7 @@ TEST(NearCells, HaveTheQuantaOfTheFinestShape) {
   }
 }
 
-// What fills up the last leaf is where a vertex is, so that nothing is looked up outside.
+// The entries that fill up the last leaf repeat the place of a vertex, so that no lookup is outside the cells.
 TEST(NearCells, QuantizeEveryVertex) {
   const Specimen s = specimen(9, 1.0F, 20.0F);
   const NearCells& cells = s.cells.headers.front();
@@ -128,7 +131,7 @@ TEST(NearCells, QuantizeEveryVertex) {
   }
 }
 
-// Every cell has a place of its own.
+// No two cells share a place.
 TEST(NearCells, BricksHoldEveryCellOnce) {
   const Specimen s = specimen(16, 1.0F, 20.0F);
   const NearCells& cells = s.cells.headers.front();
@@ -140,7 +143,7 @@ TEST(NearCells, BricksHoldEveryCellOnce) {
   EXPECT_EQ(std::ranges::count(met, 1), std::ptrdiff_t{cells.count_x} * cells.count_y * cells.count_z);
 }
 
-// Far from the origin vertices of one place round to others: lists that allow for it are longer.
+// Far from the origin, vertices at one place may be rounded to different ones: lists that allow for it are longer.
 TEST(NearCells, AllowForRoundingFarFromTheOrigin) {
   const Specimen s = specimen(16, 1.0F, 50000.0F);
   ASSERT_GT(s.cells.headers.front().count_x, 0U);

@@ -60,7 +60,7 @@ TEST(PairChunksOnHost, NoneIsLargerThanAsked) {
   EXPECT_EQ(found.pairs, tests::every_pair(c));
   EXPECT_LE(found.largest, 500U);
   EXPECT_GE(found.count, found.pairs.size() / 500);
-  // Of equal shares most chunks are near what they are aimed at.
+  // Where shares are equal, most chunks are near the size that is aimed at.
   EXPECT_LE(found.count, found.pairs.size() / 100);
   // Pairs in passes have chunks too.
   c.boxes = datasets::needle_boxes(900, 4);
@@ -70,8 +70,8 @@ TEST(PairChunksOnHost, NoneIsLargerThanAsked) {
   EXPECT_EQ(handed_on(finder).pairs, tests::every_pair(c));
 }
 
-// A pass by exponent finds some fifteen times what it keeps. Chunks were as small as if all of that were handed on: of
-// these 94, in some of which there were four pairs.
+// A pass by exponent finds some fifteen times as many pairs as it keeps. Chunks were once as small as if all of them
+// were handed on: there were 94, some of which held four pairs.
 TEST(PairChunksOnHost, APassThatFindsMoreThanItKeepsHasNoMoreChunks) {
   auto made = datasets::make_box_stream("boxes:exponents:6000");
   ASSERT_TRUE(made.ok());
@@ -111,7 +111,7 @@ TEST(PairChunksOnHost, AConsumerMayEndTheSearch) {
   EXPECT_EQ(taken, 2);
 }
 
-// Of an array of 2^32 + 1000 pairs, memory for those that are touched.
+// An array of 2^32 + 1000 pairs, with memory only for those that are written.
 TEST(PairChunksOnHost, PlacesOfPairsGoBeyond32Bits) {
   constexpr std::uint64_t kCapacity = (1ULL << 32U) + 1000;
   void* memory = mmap(nullptr, kCapacity * sizeof(Pair), PROT_READ | PROT_WRITE,

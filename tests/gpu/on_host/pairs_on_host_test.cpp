@@ -19,7 +19,7 @@ namespace {
 using core::Box;
 using core::Pair;
 
-// Boxes from which on a search begins; the last two are of a broad phase alone.
+// The numbers of boxes from which on each search is used; the last two concern a broad phase alone.
 PairFinderOptions starting_at(Broad broad, std::uint32_t grid, std::uint32_t many, std::uint32_t bins) {
   return {broad, core::Variant::kSound, 0.5F, grid, many, bins};
 }
@@ -63,7 +63,7 @@ void expect_exact(const std::vector<Box>& boxes) {
   for (const auto& [name, options] : subjects) {
     PairFinder subject(options);
     ASSERT_TRUE(subject.load(boxes, is_static).ok());
-    for (int turn = 0; turn < 2; ++turn) {  // the second finds what the first left behind in the tables
+    for (int turn = 0; turn < 2; ++turn) {  // the second turn uses the tables as the first one left them
       ASSERT_TRUE(subject.find().ok());
       auto found = subject.read_back();
       ASSERT_TRUE(found.ok());
@@ -84,7 +84,7 @@ std::vector<Box> boxes_of(std::uint32_t count, auto make) {
   return boxes;
 }
 
-// Through a cube, along all directions: groups of neighbors reach everywhere.
+// Long boxes through a cube, in all directions: groups of neighbors reach everywhere.
 std::vector<Box> long_boxes(std::uint32_t count) {
   std::vector<Box> boxes;
   Dice dice(11);
@@ -128,7 +128,7 @@ TEST(PairsOnHost, GroupsGetRoomForTheirPairs) {
   EXPECT_NE(found.path.find("groups"), std::string::npos) << found.path;
 }
 
-// 94 of them: the other search takes over.
+// 94 pairs of groups a group: the other search takes over.
 TEST(PairsOnHost, GroupsWithTooManyPairsAreGivenUp) {
   const std::vector<Box> boxes = long_boxes(6000);
   const GroupedSearch found = search_by_groups(boxes);
@@ -136,7 +136,7 @@ TEST(PairsOnHost, GroupsWithTooManyPairsAreGivenUp) {
   EXPECT_EQ(found.path.find("groups"), std::string::npos) << found.path;
 }
 
-// How much work groups are depends on the order of threads within a cell: where somebody counts, the other search runs.
+// How much work groups are depends on the order of threads within a cell: where work is counted, the other search runs.
 TEST(PairsOnHost, NoGroupsWhereWorkIsCounted) {
   PairFinder subject(by_groups());
   const std::vector<Box> boxes = long_boxes(300);
@@ -163,7 +163,7 @@ TEST(PairsOnHost, CountsLaunchesAndBytes) {
   EXPECT_GT(counts["device bytes"], boxes.size() * sizeof(PackedBox));
 }
 
-// Two where a launch puts the boxes in order first.
+// There are two launches a frame where one of them puts the boxes in order first.
 TEST(PairsOnHost, CountsBothLaunches) {
   const std::vector<Box> boxes = boxes_of(300, [](Dice& dice, std::uint32_t) { return dice.cube(30.0F); });
   const std::vector<std::uint8_t> is_static(boxes.size());
@@ -225,7 +225,7 @@ TEST(PairsOnHost, TouchingAlongEachAxis) {
   }
 }
 
-// Several tiles, each over more bins than it may count: it is gone through more than once.
+// Several tiles, each over more bins than it may count: such a tile is gone through more than once.
 TEST(PairsOnHost, TilesOverSeveralCoarseBins) {
   const std::vector<Box> boxes = boxes_of(2600, [](Dice& dice, std::uint32_t) { return dice.cube(14.0F); });
   const std::vector<std::uint8_t> is_static(boxes.size());
@@ -244,7 +244,7 @@ TEST(PairsOnHost, TilesOverSeveralCoarseBins) {
   EXPECT_TRUE(found[1] == expected);
 }
 
-// A row of cells with more entries than a bin is given shared memory for, and strays in other bins.
+// A row of cells has more entries than a bin has shared memory for, and strays lie in other bins.
 TEST(PairsOnHost, RowThatOverfillsItsBin) {
   std::vector<Box> boxes;
   Dice dice(5);
@@ -255,8 +255,8 @@ TEST(PairsOnHost, RowThatOverfillsItsBin) {
   expect_exact(boxes);
 }
 
-// Large boxes at one place, small ones a multiple of 512 blocks of the large ones' cells away, which a tag takes for
-// the same block: that the small ones' own level is wide tells that they are not.
+// Large boxes at one place, and small ones a multiple of 512 blocks of the large ones' cells away. A tag takes both for
+// the same block; the small ones are told apart because their own level is wide.
 TEST(PairsOnHost, FineBlocksThatLookLikeCoarseOnes) {
   // In a table of 1024 buckets a block has 64 x 4 x 4 cells, of 1 + 1/1024.
   constexpr float kSameX = 512.0F * 64.0F * (1.0F + 0x1p-10F);
@@ -274,8 +274,8 @@ TEST(PairsOnHost, FineBlocksThatLookLikeCoarseOnes) {
   expect_exact(boxes);
 }
 
-// Whatever finite floats the boxes are made of. Boxes near the largest float once sent a search through all cells below
-// theirs, some 2^31 rows of them, and boxes longer than the largest cell were not found.
+// Boxes of any finite floats. Boxes near the largest float once sent a search through all cells below theirs, some 2^31
+// rows of them, and boxes longer than the largest cell were not found.
 TEST(PairsOnHost, EveryFiniteFloat) {
   for (const tests::BoxFamily& family : tests::kBoxFamilies) {
     SCOPED_TRACE(family.name);
@@ -283,7 +283,7 @@ TEST(PairsOnHost, EveryFiniteFloat) {
   }
 }
 
-// Boxes far outside of the world that the cells were made for: a body that flew away.
+// Boxes far outside of the world for which the cells were made, as of a body that flew away.
 TEST(PairsOnHost, BoxesThatHaveLeftTheWorld) {
   std::vector<Box> boxes = boxes_of(120, [](Dice& dice, std::uint32_t) { return dice.cube(5.0F); });
   for (std::size_t k = 0; k < boxes.size(); k += 10) {

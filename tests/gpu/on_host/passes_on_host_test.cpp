@@ -1,5 +1,5 @@
 // The GPU's broad phase in passes, with the kernels' threads on the host: the pairs are those of trying all, each once,
-// and what a search tests falls where passes were made for it.
+// and a search makes fewer tests where passes were chosen for that.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -54,7 +54,7 @@ TEST(PassesOnHost, EveryFamilyInEachSearch) {
   EXPECT_GE(with_passes, 3) << "one family, at least, in three searches";
 }
 
-// One finder for all: another number of passes, fewer boxes, and none in what was left of the memory.
+// One finder for all sets: each has another number of passes or fewer boxes, in the memory that the set before left.
 TEST(PassesOnHost, ThinAndUnevenBoxesInTheMemoryOfOthers) {
   PairFinder finder(passes_from(50, 200, kBeyondAll));
   for (const std::uint32_t count : {900U, 200U}) {
@@ -62,7 +62,7 @@ TEST(PassesOnHost, ThinAndUnevenBoxesInTheMemoryOfOthers) {
          {datasets::needle_boxes, datasets::exponent_boxes, datasets::sliver_boxes, datasets::uniform_boxes}) {
       const tests::BoxCase c = case_of(make(count, 5));
       EXPECT_EQ(pairs_of(finder, c), tests::every_pair(c));
-      // Of 200, passes would take longer to sort than to test.
+      // For 200 boxes, sorting them into passes would take longer than testing them.
       if (count == 900U) {
         EXPECT_EQ(finder.plan().is_plain(), make == datasets::uniform_boxes);
       }
@@ -85,7 +85,7 @@ TEST(PassesOnHost, UpdatesFromOnePlanToAnother) {
   }
 }
 
-// More pairs in one pass than there is room for: it is found again, and none is lost or doubled.
+// One pass finds more pairs than there is room for: it is run again, and no pair is lost or doubled.
 TEST(PassesOnHost, GrowsWhereAPassFindsMoreThanExpected) {
   std::vector<Box> boxes = datasets::needle_boxes(600, 3);
   for (std::size_t k = 0; k < 200; ++k) boxes[3 * k] = boxes[0];
@@ -94,7 +94,7 @@ TEST(PassesOnHost, GrowsWhereAPassFindsMoreThanExpected) {
   EXPECT_EQ(pairs_of(finder, c), tests::every_pair(c));
 }
 
-// Each pass leaves its pairs in an array of its own; who asks for all gets one.
+// Each pass leaves its pairs in an array of its own; a caller that asks for all pairs gets one array.
 TEST(PassesOnHost, PairsOfAllPassesLieTogetherOnTheDevice) {
   const tests::BoxCase c = case_of(datasets::needle_boxes(500, 2));
   PairFinder finder(passes_from(50, kBeyondAll, kBeyondAll));
@@ -117,9 +117,9 @@ std::uint64_t tests_of(const std::vector<Box>& boxes, bool has_passes) {
   return counts["broad: box tests"];
 }
 
-// As they are, needles are tested all against all: n (n - 1) / 2. In three passes each is tested against those that
-// share its cell in the coordinates of the pass, which is hardly any, and those whose cells share a bucket of the table
-// with it: some 15 buckets of two thirds of a box.
+// Without passes, needles are tested all against all: n (n - 1) / 2. In three passes each is tested against those that
+// share its cell in the coordinates of the pass, which is hardly any, and against those whose cells share a bucket of
+// the table with it: some 15 buckets of two thirds of a box.
 TEST(PassesOnHost, NeedlesAreTestedAgainstFew) {
   constexpr std::uint64_t kCount = 600;
   const std::vector<Box> boxes = datasets::needle_boxes(kCount, 3);
@@ -127,7 +127,7 @@ TEST(PassesOnHost, NeedlesAreTestedAgainstFew) {
   EXPECT_LT(tests_of(boxes, true), 50 * kCount);
 }
 
-// Nearly all of them are in the finest cells around the origin, as they are.
+// Without passes, nearly all of them are in the finest cells around the origin.
 TEST(PassesOnHost, BoxesOverAllExponentsAreTestedAgainstFew) {
   const std::vector<Box> boxes = datasets::exponent_boxes(350, 3);
   EXPECT_LT(3 * tests_of(boxes, true), tests_of(boxes, false));

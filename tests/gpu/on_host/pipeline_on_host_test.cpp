@@ -62,9 +62,9 @@ TEST(PipelineOnHost, StaticBodiesAndTheJacobiSolver) {
   EXPECT_GT(compare(coarse_spheres(40, 2.5F, 3), options, {{"solver", "jacobi"}}, 12), 0U);
 }
 
-// Nearest vertices are looked up in cells, or found by descending two trees: with cells for both shapes, for one, for
-// none. A warp a pair where the grid has no more warps than pairs, several warps a pair where it has; these have less
-// room than they might fill, and then open one pair of nodes at a time.
+// Nearest vertices are looked up in cells, or found by descending two trees: with cells for both shapes, for one, or
+// for none. A pair gets one warp where the grid has no more warps than pairs, and several where it has more; several
+// warps have less room than they might fill, and then open one pair of nodes at a time.
 TEST(PipelineOnHost, NearestVerticesByCellsAndByTrees) {
   SceneShape shape;
   shape.bodies = 21;  // of two meshes, some turned: shapes of 7, 7, 4 and 3 bodies
@@ -107,7 +107,7 @@ TEST(PipelineOnHost, Springs) {
   EXPECT_EQ(refused.error().line(), twin_of({})->load(scene).error().line());
 }
 
-// From two bodies on a ring to more than there are warps for, and to where the tiles begin.
+// From two bodies on a ring to more bodies than there are warps, and up to the number at which tiles begin.
 TEST(PipelineOnHost, FewBodiesOfEveryNumber) {
   for (const std::uint32_t bodies : {1U, 2U, 3U, 33U, 64U, 128U, 129U}) {
     SCOPED_TRACE(bodies);
@@ -120,8 +120,8 @@ TEST(PipelineOnHost, FewBodiesOfEveryNumber) {
   }
 }
 
-// Levels that are gone down while pairs are measured, and where they are found: the first frame knows of none before
-// it.
+// Levels are descended while pairs are measured, or where the pairs are found: for the first frame the pairs of the
+// frame before are unknown.
 TEST(PipelineOnHost, EveryLevelOfFewBodies) {
   const core::Scene scene = coarse_spheres(40, 1.6F, 5);
   for (const bool has_vertex_stage : {true, false}) {
@@ -135,8 +135,8 @@ TEST(PipelineOnHost, EveryLevelOfFewBodies) {
   }
 }
 
-// Two bodies that come nearer corner by corner: at first their boxes overlap and nothing in them does. One block
-// measures the pair, by cells or by trees, and another goes down its levels meanwhile.
+// Two bodies that approach corner by corner: at first their boxes overlap and nothing inside them does. One block
+// measures the pair, by cells or by trees, while another one descends its levels.
 TEST(PipelineOnHost, LevelsOfAPairThatIsMeasuredMeanwhile) {
   SceneShape shape;
   shape.bodies = 2;
@@ -171,7 +171,7 @@ TEST(PipelineOnHost, LevelsOfAPairThatIsMeasuredMeanwhile) {
   }
 }
 
-// A frame that is copied while the next one is computed is the frame that it was; two may be under way, a third may
+// A frame that is copied while the next one is computed keeps its content. Two copies may be under way, a third may
 // not.
 TEST(PipelineOnHost, FramesAreCopiedWhileLaterOnesAreComputed) {
   const core::Scene scene = coarse_spheres(40, 2.5F);
@@ -198,8 +198,8 @@ TEST(PipelineOnHost, FramesAreCopiedWhileLaterOnesAreComputed) {
   EXPECT_FALSE(subject.start_copy(core::RecordLevel::kFull).ok());
 }
 
-// Digests come with the frames when they are asked for in a rhythm, and are made when somebody asks out of it, or
-// twice, or before the first step: they are the same.
+// Digests that are asked for at regular intervals come with the frames. One that is asked for at another time, twice,
+// or before the first step is computed then: all are the same.
 TEST(PipelineOnHost, DigestsInAnyRhythm) {
   const core::Scene scene = coarse_spheres(40, 2.5F);
   Pipeline subject(PipelineOptions{});
@@ -223,7 +223,7 @@ TEST(PipelineOnHost, DigestsInAnyRhythm) {
   }
 }
 
-// More bodies than the grid has threads, more than a block's memory holds, and from the hashed octree.
+// More bodies than the grid has threads, more than fit into a block's memory, and enough for the hashed octree.
 TEST(PipelineOnHost, ManyBoxesOfManySizes) {
   SceneShape shape;
   shape.bodies = 1000;
@@ -254,7 +254,7 @@ TEST(PipelineOnHost, BuffersGrow) {
   EXPECT_GE(subject.repeated_frames(), 1U);
 }
 
-// The same where pairs are measured: what the aborted frame has put, the repeated one puts again.
+// The same where pairs are measured: the repeated frame writes again what the aborted frame wrote.
 TEST(PipelineOnHost, BuffersOfMeasuredPairsGrow) {
   SceneShape shape;
   shape.bodies = 90;
@@ -295,7 +295,7 @@ TEST(PipelineOnHost, CountsLaunchesPairsAndBytes) {
   }
 }
 
-// Whatever the order in which threads come: a frame is a function of the one before.
+// Threads may come in any order: a frame is a function of the frame before it.
 TEST(PipelineOnHost, AnyOrderOfThreads) {
   for (const char* seed : {"1", "2", "3"}) {
     ASSERT_EQ(setenv("BROADSIDE_ON_HOST_SEED", seed, 1), 0);

@@ -20,7 +20,7 @@
 namespace broadside::gpu {
 namespace {
 
-// Where a mesh is not on this machine, with a body of its size class.
+// Where a mesh is not on this machine, a body of its size class takes its place.
 core::Scene scene_of(const std::string& name) {
   datasets::SceneOptions options;
   options.meshes.allow_procedural = true;
@@ -51,12 +51,12 @@ TEST(RigidOnHost, PrimitivesThatTouch) {
   EXPECT_GT(compare("rigid:billiards:three", 40), 0U);
 }
 
-// Their pairs are spread over all warps.
+// The pairs of these hulls are spread over all warps.
 TEST(RigidOnHost, HullsThatTouch) {
   EXPECT_GT(compare("rigid:arch:7-stands", 8), 0U);
 }
 
-// Finely cut ones: lanes dismiss pairs by bounds before warps make patches.
+// Finely cut hulls: lanes dismiss pairs by bounds before warps make patches.
 TEST(RigidOnHost, RoundHullsThatFall) {
   EXPECT_GT(compare(tests::five_boulders(), 30, {}, {}), 0U);
 }
@@ -74,14 +74,15 @@ TEST(RigidOnHost, AHeap) {
   EXPECT_GT(compare("freefall:cube:40[rigid=1]", 50), 0U);
 }
 
-// The solver's threads: one cluster of blocks, or a grid.
+// The threads of the solver are one cluster of blocks, or a grid.
 TEST(RigidOnHost, AHeapSolvedByAGrid) {
   RigidPipelineOptions options;
   options.may_cluster = false;
   EXPECT_GT(compare("freefall:cube:20[rigid=1]", 40, options), 0U);
 }
 
-// The first color has some three patches a thread: warps choose what a sweep visits while cubes land and bounce.
+// The first color has some three patches a thread: warps choose which of them a sweep visits while cubes land and
+// bounce.
 TEST(RigidOnHost, ALargeColor) {
   RigidPipelineOptions soft_steps;
   soft_steps.solver = core::soft_step_settings();
@@ -93,7 +94,8 @@ TEST(RigidOnHost, ALargeColor) {
   EXPECT_GT(compare(scene, 4, {}, {}), 0U);
 }
 
-// Masses that are far apart: a step is taken in parts, and its points are put together. The heavy one comes down askew.
+// Masses that differ much: a step is taken in parts, and the points of the parts are put together. The heavy body comes
+// down askew.
 TEST(RigidOnHost, AStepInParts) {
   core::Scene scene = scene_of("rigid:stack:1000-on-1");
   EXPECT_GT(core::most_parts({}, core::largest_mass_ratio(scene), false), 1U);
@@ -102,17 +104,17 @@ TEST(RigidOnHost, AStepInParts) {
   heavy.velocity = {1.0F, -3.0F, 0.5F};
   heavy.angular_velocity = {1.0F, 2.0F, 3.0F};
   EXPECT_GT(compare(scene, 4, {}, {}), 0U);
-  // At rest a step is taken at once.
+  // At rest a step is taken in one part.
   EXPECT_GT(compare("rigid:stack:1000-on-1", 3), 0U);
 }
 
-// In step 142 sweeps over what pushes left are the first to give an impulse to a point that came fast.
+// In step 142, sweeps over the remaining pushes are the first to give an impulse to a point that approached fast.
 TEST(RigidOnHost, WhatCameFastIsMetWhilePushesAreSwept) {
   EXPECT_GT(compare("freefall:brick:200[rigid=1]", 142), 0U);
 }
 
-// Thin bodies that come down: the plan of a step is that of the step before, and where it is not the right one the step
-// is begun again. With bodies that sleep, too.
+// Thin bodies come down. A step is begun with the plan of the step before; where that is not the right plan, the step
+// is begun again. Also with bodies that sleep.
 TEST(RigidOnHost, StepsInPartsByHowFarBodiesMove) {
   core::Scene scene = scene_of("domino:domino:3[rigid=1]");
   for (core::Body& body : scene.bodies)
@@ -149,8 +151,8 @@ TEST(RigidOnHost, SoftSteps) {
   EXPECT_GT(compare("freefall:cube:20[rigid=1]", 45, options, {{"contact", "soft-step"}}), 0U);
 }
 
-// Cubes that begin deep in each other are pushed apart, and what pushed them is taken back; with other heaps around
-// them, with bounces, and without gravity.
+// Cubes that begin deep in each other are pushed apart, and the velocity of the push is taken back; with other heaps
+// around them, with bounces, and without gravity.
 TEST(RigidOnHost, WhatPushesIsTakenBack) {
   for (const char* name : {"rigid:stack:5", "freefall:cube:20[rigid=1]"}) {
     SCOPED_TRACE(name);
@@ -165,7 +167,7 @@ TEST(RigidOnHost, WhatPushesIsTakenBack) {
   }
 }
 
-// An edge that comes down within a step is solved by relaxation alone, and sweeps go on from there.
+// An edge that comes down within a step is solved by relaxation alone; sweeps continue from there.
 TEST(RigidOnHost, EdgesThatStrikeWithoutGravity) {
   for (const float dt_s : {1.0F / 60.0F, 1.0F / 120.0F}) {
     SCOPED_TRACE(dt_s);
@@ -176,14 +178,14 @@ TEST(RigidOnHost, EdgesThatStrikeWithoutGravity) {
   }
 }
 
-// What bounces stirs its neighbors; wrenches are added in each substep.
+// A contact that bounces stirs its neighbors; wrenches are added in each substep.
 TEST(RigidOnHost, BouncesAndWrenches) {
   EXPECT_GT(compare("rigid:billiards:cradle", 60), 0U);
   compare("rigid:flight:pushed", 10);
 }
 
-// Two piles sleep, and one wakes when the last body comes down on it: digests are equal in every frame, with what
-// contacts of those that sleep go on giving in them.
+// Two piles sleep, and one wakes when the last body comes down on it. Digests are equal in every frame; they include
+// the impulses that contacts of sleeping bodies go on giving.
 TEST(RigidOnHost, PilesSleepAndWake) {
   core::Scene scene = scene_of("rigid:stack:5");
   ASSERT_EQ(scene.bodies.size(), 5U);
@@ -210,8 +212,8 @@ TEST(RigidOnHost, PilesSleepAndWake) {
   EXPECT_EQ(last.velocity[3], core::Vec3{}) << "the other one sleeps";
 }
 
-// Bodies that fly at each other, through thin ones and at the floor, faster than they are thick: they stop on the way,
-// at the places of the twin.
+// Bodies fly at each other, through thin ones and at the floor, and move farther in a step than they are thick: they
+// stop on the way, at the same places as in the twin.
 TEST(RigidOnHost, FastBodiesStopShort) {
   std::uint64_t stopped = 0;
   RigidPipelineOptions options;
@@ -233,7 +235,7 @@ TEST(RigidOnHost, FastBodiesStopShort) {
   EXPECT_GT(stopped, 10U);
 }
 
-// Of a scene that flags its bullet alone, pairs of that bullet.
+// Where the scene flags its bullet alone, only pairs of that bullet are swept.
 TEST(RigidOnHost, FlaggedBodiesStopShort) {
   core::Scene scene = scene_of("rigid:bullet-through-cards");
   for (std::size_t i = 1; i < scene.bodies.size(); ++i) scene.is_fast[i] = 0;
@@ -245,7 +247,7 @@ TEST(RigidOnHost, FlaggedBodiesStopShort) {
   EXPECT_GT(tests::counts_of(*twin)["sweep: bodies stopped short"], 0U);
 }
 
-// Both say how many sweeps they took.
+// The GPU and the twin count the same number of sweeps.
 TEST(RigidOnHost, SweepsAreCountedAlike) {
   const core::Scene scene = scene_of("freefall:cube:12[rigid=1]");
   RigidPipeline subject{{}};
@@ -260,7 +262,8 @@ TEST(RigidOnHost, SweepsAreCountedAlike) {
   EXPECT_GT(of_gpu["solver: waits"], of_gpu["solver: sweeps"]);
 }
 
-// All threads wait for each other once, at the end of the step: soft steps in which nothing bounces have no barrier.
+// All threads wait at a barrier once, at the end of the step: soft steps in which nothing bounces have no other
+// barrier.
 TEST(RigidOnHost, SoftStepsWaitForVersionsAlone) {
   core::Scene scene = scene_of("rigid:stack:5");
   RigidPipelineOptions options;
@@ -293,14 +296,15 @@ TEST(RigidOnHost, EveryStartAndLevel) {
   EXPECT_GT(compare("freefall:cube:40[rigid=1]", 40, options), 0U);
 }
 
-// A first frame that searched cells of no size did not end where a box lies across a coordinate of 0: some of these do.
+// Once, a first frame that searched cells of size zero did not end where a box lies across a coordinate of 0; some of
+// these boxes do.
 TEST(RigidOnHost, TheFirstFrameSearchesNoCells) {
   RigidPipelineOptions options;
   options.least_for_grid = 2;
   compare("freefall:cube:250[rigid=1]", 3, options);
 }
 
-// Threads of the kernel in another order each round.
+// The threads of the kernel run in another order each round.
 TEST(RigidOnHost, NoOrderOfThreadsShows) {
   for (const char* seed : {"1", "2", "3"}) {
     SCOPED_TRACE(seed);

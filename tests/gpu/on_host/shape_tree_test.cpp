@@ -91,7 +91,7 @@ TEST(ShapeTree, EveryNodeNamesTheBlockOfItsChildren) {
   EXPECT_EQ(header.root, trees.nodes[header.node_begin[header.top]].low_tag);
 }
 
-// Of a single leaf, of a leaf's parent, and of the lowest level that has so few nodes.
+// For a single leaf, for a leaf's parent, and for the lowest level with so few nodes.
 TEST(ShapeTree, NamesTheUpperNodesAndTheRootBehindThem) {
   const struct {
     std::uint32_t vertices;

@@ -1,4 +1,4 @@
-// Long searches that a team of warps hands over and the whole grid goes on with.
+// Long searches that a team of warps hands over, and that the whole grid continues.
 #include <gtest/gtest.h>
 
 #include <bit>
@@ -46,7 +46,7 @@ TEST(GridWord, SharesOfAllBlocksFlipOneBit) {
   }
 }
 
-// All entries of three leftovers, over seven blocks: each entry in one block, as what it is.
+// All entries of three leftovers, spread over seven blocks: each entry is in exactly one block, with its own kind.
 TEST(LeftoverPart, OfAllBlocksAreTheRest) {
   constexpr std::uint32_t kBlocks = 7;
   constexpr std::uint32_t kEntries = 64 * 4;

@@ -66,7 +66,7 @@ TEST(SpreadOnHost, DigestIsThatOfOneDeviceWhereBoxesComePartByPart) {
   EXPECT_EQ(of_three.value(), of_one.value());
 }
 
-// Every box begins in the first part and reaches into two more: more guests than borders first have room for.
+// Every box begins in the first part and reaches into two more: there are more guests than borders first have room for.
 TEST(SpreadOnHost, NeedlesReachIntoEveryPart) {
   tests::BoxCase c;
   c.boxes = datasets::needle_boxes(1500, 2);
@@ -98,7 +98,7 @@ TEST(SpreadOnHost, BoxesMoveFromPartToPart) {
 }
 
 TEST(SpreadOnHost, CountsTheBytesThatBordersNeed) {
-  // Two of five reach over the one face.
+  // Two of five boxes reach over the one face.
   const std::vector<Box> boxes{{{0, 0, 0}, {1, 1, 1}},
                                {{0, 0, 0}, {2, 1, 1}},
                                {{1, 0, 0}, {3, 1, 1}},

@@ -1,5 +1,5 @@
-// A set that is spread over devices, which here are three of the host, in passes and in chunks: long thin boxes and
-// worlds over all exponents, and a small room for pairs. The pairs are those of trying all, each once.
+// A set that is spread over devices, which here are three of the host, in passes and in chunks: long thin boxes, worlds
+// over all exponents, and little room for pairs. The pairs are those of trying all, each once.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -74,7 +74,7 @@ TEST(SpreadPassesOnHost, ChunksAreNoLargerThanAsked) {
   }
 }
 
-// From thin boxes to even ones and back: other searches in the memory of those before.
+// From thin boxes to even ones and back: each search uses the memory that another kind of search left.
 TEST(SpreadPassesOnHost, UpdatesFromOnePlanToAnother) {
   const tests::BoxCase even = case_of(datasets::uniform_boxes(500, 1));
   const tests::BoxCase thin = case_of(datasets::needle_boxes(500, 1));

@@ -1,4 +1,5 @@
-// The search of a pair's nearest vertices by several warps: against all vertices, and when it is told to end.
+// The search for a pair's nearest vertices by several warps: against all vertices, and when the search is told to end
+// early.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -29,7 +30,7 @@ struct Ending {
 
 using NodeWords = std::set<std::pair<std::uint32_t, std::uint32_t>>;
 
-// Two bumpy spheres in each other, of so many rings, searched by one block.
+// Two bumpy spheres in each other, with this number of rings, searched by one block.
 class TwoBodies {
  public:
   explicit TwoBodies(std::uint32_t members, std::uint32_t rings = 20, float theta_m = 0.08F)
@@ -71,7 +72,7 @@ class TwoBodies {
     return nearest;
   }
 
-  // What is on the stack when a search begins, as the nodes' words.
+  // The entries of the stack when a search begins, as the words of their nodes.
   NodeWords start() {
     NodeWords found;
     in_block([&](const SearchTeam& team, const TreePair& pair) {
@@ -114,7 +115,7 @@ class TwoBodies {
     return std::span(trees_.upper).subspan(tree.upper_begin, tree.upper_count);
   }
 
-  // The stack has guards behind it.
+  // Behind the stack lie guard words.
   template <typename Body>
   void in_block(const Body& body) {
     constexpr std::uint32_t kGuard = 0xA5A5A5A5U;
@@ -147,7 +148,7 @@ TEST(TeamCounts, AreMuchWithFewNodesOrManyLeaves) {
   EXPECT_TRUE(is_much({0, 64}));
 }
 
-// Of fewer warps than there are pairs of nodes below the roots, and of more.
+// With fewer warps than there are pairs of nodes below the roots, and with more.
 class TreeSearch : public testing::TestWithParam<std::uint32_t> {};
 
 TEST_P(TreeSearch, OfATeamFindsTheNearestOfAll) {
@@ -158,7 +159,7 @@ TEST_P(TreeSearch, OfATeamFindsTheNearestOfAll) {
   EXPECT_GT(bodies.asked(), 0U) << "a long search";
 }
 
-// Down to a leaf that waits while the other's tree is descended; of two leaves alone, too.
+// Down to a leaf that waits while the other tree is descended; and for two single leaves.
 TEST_P(TreeSearch, OfTreesOfDifferentHeightsFindsTheNearestOfAll) {
   const std::pair<std::uint32_t, std::uint32_t> kRings[] = {{3, 66}, {66, 3}, {2, 20}, {20, 2}, {6, 40}, {2, 2}};
   std::set<std::pair<std::uint32_t, std::uint32_t>> tops;
@@ -178,7 +179,7 @@ TEST_P(TreeSearch, BeginsAtAllUpperNodesNearEachOther) {
   EXPECT_EQ(bodies.start(), bodies.near_upper_nodes());
 }
 
-// Where everything is near everything.
+// A case in which every node is near every other.
 TEST_P(TreeSearch, BeginsAtTheRootsWhereTheStackIsTooSmall) {
   TwoBodies bodies(GetParam(), 40, 5.0F);
   EXPECT_EQ(bodies.near_upper_nodes().size(), 2500U);

@@ -1,4 +1,4 @@
-// The lanes of a warp come to the same as one lane: loop by loop, and contacts of hulls and meshes bit by bit.
+// The lanes of a warp give the results of a single lane: loop by loop, and for contacts of hulls and meshes bit by bit.
 #include "gpu/stages/rigid/warp_lanes.cuh"
 
 #include <gtest/gtest.h>
@@ -61,7 +61,7 @@ TEST(WarpLanes, VisitInOrderThoughVisitsChangeWhatIsVisited) {
     const auto visited_by = [&](auto lanes) {
       std::vector<int> visited;
       unsigned most = 0;
-      // Those above all before.
+      // The items that are larger than all before them.
       const auto is_above = [&](int k) { return values[static_cast<std::size_t>(k)] >= most; };
       decltype(lanes)::each_in_turn(count, is_above, [&](int k) {
         visited.push_back(k);

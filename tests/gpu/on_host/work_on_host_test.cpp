@@ -1,4 +1,5 @@
-// What frames test is counted exactly, and the counts depend neither on the order of threads nor on their number.
+// The tests that frames make are counted exactly, and the counts depend neither on the order of threads nor on their
+// number.
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -38,8 +39,8 @@ TEST(WorkOnHost, IsTheSameInEveryOrderOfThreads) {
   unsetenv("BROADSIDE_ON_HOST_SEED");
 }
 
-// Where every body is in every other's way: n (n - 1) / 2 pairs, however they are looked for; of the grid's one cell,
-// whose entries each box meets, itself and both orders, n^2.
+// Every body overlaps every other: n (n - 1) / 2 pairs, however they are looked for. With the grid they all lie in one
+// cell, and each box meets all entries of it, itself and both orders: n^2.
 TEST(WorkOnHost, OfBodiesInOnePlaceIsThatOfAllPairs) {
   constexpr std::uint64_t kBodies = 60;
   const std::vector<core::Box> boxes(kBodies, core::Box{{0.1F, 0.1F, 0.1F}, {0.2F, 0.2F, 0.2F}});
@@ -53,7 +54,7 @@ TEST(WorkOnHost, OfBodiesInOnePlaceIsThatOfAllPairs) {
   EXPECT_EQ(counts_of(hash, boxes).at("broad: nodes visited"), kBodies) << "an entry of one cell each";
 }
 
-// The search among many meets each pair of a cell from one side, its bins in use or not.
+// The search for many boxes meets each pair of a cell from one side, with its bins in use or not.
 TEST(WorkOnHost, OfManyBoxesInOnePlaceIsThatOfAllPairs) {
   constexpr std::uint64_t kBodies = 60;
   const std::vector<core::Box> boxes(kBodies, core::Box{{0.1F, 0.1F, 0.1F}, {0.2F, 0.2F, 0.2F}});
@@ -90,8 +91,8 @@ TEST(WorkOnHost, OfLonelyBodiesIsAVisitAndNoPartner) {
   EXPECT_GE(counts.at("broad: nodes visited"), kBodies);
 }
 
-// Of one pair of bodies, A tests all level-2 boxes of one against all of the other, level1 8 x 8 boxes, and B below
-// that 8 x 8 children of each hit until two of them meet: more than level1, fewer than all.
+// For one pair of bodies, A tests all level-2 boxes of one against all of the other, and level1 tests 8 x 8 boxes.
+// Below that, B tests 8 x 8 children of each hit until two of them meet: more tests than level1, fewer than all.
 TEST(WorkOnHost, OfOnePairIsThatOfItsLevels) {
   SceneShape shape;
   shape.bodies = 2;
@@ -119,7 +120,7 @@ TEST(WorkOnHost, OfOnePairIsThatOfItsLevels) {
   EXPECT_LE(of_b, 65U * 64U);
 }
 
-// Counting is no part of what is timed: nobody asked, nothing is counted.
+// Counting is no part of what is timed: unless it is asked for, nothing is counted.
 TEST(WorkOnHost, IsNotCountedWhereNobodyAsked) {
   const core::Scene scene = counted_scene();
   Pipeline subject(PipelineOptions{});
@@ -128,7 +129,7 @@ TEST(WorkOnHost, IsNotCountedWhereNobodyAsked) {
   EXPECT_EQ(counts_of(subject).count("level stage: box tests"), 0U);
 }
 
-// It starts anew with each load.
+// Counting starts anew with each load.
 TEST(WorkOnHost, IsOfTheLastLoad) {
   Pipeline subject(PipelineOptions{});
   const core::Scene scene = counted_scene();

@@ -67,7 +67,7 @@ TEST(BulletWorld, FreeFallIsSemiImplicitEuler) {
   scene.gravity_m_s2 = {0, -8, 0};
   add_cube(scene, {0, 9, 0}, {1, 0, 0});
   const auto frames = bullet_frames(scene, 64);
-  // After n steps v = n g dt and y = y0 + g dt^2 n (n + 1) / 2: powers of two but for the sum.
+  // After n steps v = n g dt and y = y0 + g dt^2 n (n + 1) / 2: all terms but the sum are powers of two.
   EXPECT_NEAR(frames.back().velocity[0].y, -8.0, 1e-5);
   EXPECT_NEAR(frames.back().velocity[0].x, 1.0, 1e-6);
   EXPECT_NEAR(frames.back().position[0].y, 9.0 - 8.0 * 64.0 * 65.0 / 2.0 / (64.0 * 64.0), 1e-4);
@@ -133,7 +133,8 @@ TEST(BulletWorld, SlidingFrictionTakesKineticFrictionTimesWeight) {
   scene.face_material = {1.0F, 0.25F, 0.0F};
   add_cube(scene, {-8, -9.5F, 0}, {6, 0, 0}, {1.0F, 0.25F, 0.0F});
   const auto frames = bullet_frames(scene, 65);
-  // Geometric mean of equal coefficients: 0.25 * 8 m/s^2 over 64 steps after the first has pressed it on the floor.
+  // The geometric mean of equal coefficients gives 0.25 * 8 m/s^2, over 64 steps after the first step has pressed the
+  // cube onto the floor.
   EXPECT_NEAR(frames[64].velocity[0].x - frames[0].velocity[0].x, -2.0, 0.05);
   for (const core::Contact& c : frames.back().contacts) {
     EXPECT_LE(c.tangent_impulse_n_s, 0.0F);

@@ -1,4 +1,4 @@
-// Candidates through the broad phases: the same set from each, and as from every pair of features.
+// Candidates through the broad phases: each gives the same set, which is that of trying every pair of features.
 #include "reference/continuous/find_candidates.hpp"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
-// Queries side by side, on any number of threads: the bits of one query after the other; and on surfaces no touch is
-// missed or late.
+// Queries side by side, on any number of threads, give the bits of one query after the other; and on surfaces no touch
+// is missed or late.
 #include "reference/continuous/surface_impacts.hpp"
 
 #include <gtest/gtest.h>
@@ -35,8 +35,8 @@ const std::vector<ImpactSettings>& all_settings() {
   return settings;
 }
 
-// General motions, lattices where much is parallel or flat, and units that must be scaled first; kinds in runs of one
-// to three.
+// General motions, lattices where much is parallel or flat, and units that must be scaled first. The kinds of query
+// alternate in runs of one to three.
 TEST(SurfaceImpacts, SideBySideHasTheSameBits) {
   std::mt19937_64 random(41);
   std::vector<MovingFeatures> features;

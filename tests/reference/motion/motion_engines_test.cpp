@@ -1,5 +1,5 @@
-// Engines of continuous queries: each answers a plain case in our units and in our order of points, and says which
-// motions it follows.
+// Engines of continuous queries: each answers a plain case in our units and in our order of points, and declares which
+// motions it can follow.
 #include "reference/motion/motion_engines.hpp"
 
 #include <gtest/gtest.h>
@@ -74,7 +74,7 @@ TEST(MotionEngines, ABoxThatFallsOnABox) {
   }
 }
 
-// Known defects of FCL 0.7.0 (reference/README.md). Should one be mended some day, its row there goes.
+// Known defects of FCL 0.7.0 (reference/README.md). If one is fixed some day, remove its row there.
 TEST(MotionEngines, FclsMeshesPassThroughEachOther) {
   const std::vector<std::shared_ptr<const core::Mesh>> meshes{
       std::make_shared<const core::Mesh>(datasets::box_mesh({1, 1, 1}, {1, 1, 1}).value())};

@@ -1,4 +1,4 @@
-// mujoco-world's ways of saying that its library did something else than the scene.
+// How mujoco-world reports that its library did something other than the scene asks for.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -37,7 +37,7 @@ core::Scene stack() {
   return scene;
 }
 
-// Four cubes that rest on each other, tilted by some 1e-7, where MuJoCo 2.2.2 finds a corner a third of a meter deep.
+// Four cubes that rest on each other, tilted by some 1e-7: here MuJoCo 2.2.2 reports a corner a third of a meter deep.
 TEST(MujocoWorld, ContactsDeeperThanTheBoxesOverlapAreCounted) {
   if (!reference::mujoco_world_row().absent().empty()) GTEST_SKIP() << "built without MuJoCo";
   const core::Engine engine = mujoco_world_engine();
@@ -48,7 +48,7 @@ TEST(MujocoWorld, ContactsDeeperThanTheBoxesOverlapAreCounted) {
     core::FrameRecord frame;
     ASSERT_TRUE(engine.dynamics->read_back(frame, core::RecordLevel::kFull).ok());
     std::uint64_t too_deep = 0;
-    // Cubes in a pile are never deeper than a tenth: what is, is the defect.
+    // Cubes in this pile are never deeper than a tenth of a meter: a deeper point is the defect.
     for (const core::ContactPoint& p : frame.points)
       if (!core::is_face(p.b) && p.gap_m < -0.1F) ++too_deep;
     if (too_deep == 0) continue;
@@ -76,7 +76,7 @@ TEST(MujocoWorld, SurfacesWithoutFrictionDoNotBrake) {
   for (const core::ContactPoint& p : frame.points) EXPECT_LT(std::hypot(p.impulse.x, p.impulse.z), 1e-12F);
 }
 
-// As shipped the library would start the scene again, and go on as if nothing had been.
+// As shipped, the library would restart the scene from its first state, and go on as if nothing had happened.
 TEST(MujocoWorld, AStateThatIsTooFastEndsTheStepWithItsWarning) {
   if (!reference::mujoco_world_row().absent().empty()) GTEST_SKIP() << "built without MuJoCo";
   const core::Engine engine = mujoco_world_engine();

@@ -41,8 +41,8 @@ TEST(Coloring, ChainOfContacts) {
   Coloring coloring;
   coloring.color(pairs, never_written);
   expect_proper(coloring, pairs, never_written);
-  // A contact of a chain waits for neighbors of lower priority in a row. The longest of the runs that rise or fall in a
-  // thousand random numbers has seven or so; a run of fifteen is one in 15!.
+  // In a chain, a contact waits for neighbors of lower priority in a row. The longest rising or falling run in a
+  // thousand random numbers is seven or so long; the chance of a run of fifteen is one in 15!.
   EXPECT_GE(coloring.color_count(), 4U);
   EXPECT_LE(coloring.color_count(), 15U);
 }
@@ -73,7 +73,7 @@ TEST(Coloring, BodyInThreeHundredContactsNeedsThreeHundredColors) {
   coloring.color(pairs, never_written);
   expect_proper(coloring, pairs, never_written);
   EXPECT_EQ(coloring.color_count(), 300U);
-  // The same body, static, is never written: nothing conflicts.
+  // The same body as a static one is never written, so nothing conflicts.
   never_written[0] = 1;
   coloring.color(pairs, never_written);
   EXPECT_EQ(coloring.color_count(), 1U);

@@ -1,4 +1,4 @@
-// Level A in columns is level A test by test: the same answers and the same counts.
+// Level A computed in columns gives the same answers and counts as level A test by test.
 #include "reference/octree_cpu/leaf_boxes.hpp"
 
 #include <gtest/gtest.h>

@@ -170,8 +170,8 @@ TEST(Pipeline, LevelsABCAgreeAndFlatContainsThem) {
     EXPECT_NE(std::find(flat[0].confirmed.begin(), flat[0].confirmed.end(), p), flat[0].confirmed.end());
 }
 
-// The culled search must be that of trying every pair of vertices, in the same float arithmetic. Returns how many
-// touch.
+// The culled search must give the result of trying every pair of vertices, in the same float arithmetic. Returns how
+// many pairs touch.
 std::size_t check_proximity(const core::Scene& scene, int steps) {
   const auto frames = run(scene, {}, steps);
   const auto& v = scene.meshes[0]->vertices;
@@ -200,7 +200,7 @@ TEST(Pipeline, ProximityIsThatOfAllVertexPairs) {
   EXPECT_GT(check_proximity(heap(), 20), 50U);
 }
 
-// 40 vertices a leaf, so that leaves are searched by their own boxes; on a grid many pairs are equally near.
+// 40 vertices a leaf, so that leaves are searched by boxes of their own; on a grid, many pairs are equally near.
 TEST(Pipeline, ProximityIsThatOfAllVertexPairsInLeavesOfManyVertices) {
   EXPECT_GT(check_proximity(heap(20), 3), 5U);
 }
@@ -233,8 +233,8 @@ TEST(Pipeline, NoBodyAndOneBodyAndAllAtOnePoint) {
   EXPECT_EQ(heap_at_point[0].contacts[0].normal, (Vec3{1, 0, 0})) << "coincident centers take the fixed axis";
 }
 
-// Where all pairs are tested by their boxes alone that is the broad phase, as on the GPU; from level 1 on it is the
-// levels'. Half a million tests stand against none, so the clock cannot err.
+// Where all pairs are tested by their boxes alone, the time counts as the broad phase's, as on the GPU; from level 1 on
+// it counts as the levels'. Half a million tests are compared with none, so the clock cannot err.
 TEST(Pipeline, ThePublishedStartOfLevel0IsTimedAsTheBroadPhase) {
   std::vector<Vec3> line;
   for (int k = 0; k < 1000; ++k) line.push_back({2.0F * static_cast<float>(k), 0, 0});

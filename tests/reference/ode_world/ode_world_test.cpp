@@ -1,4 +1,4 @@
-// What ODE gives for contacts that no step can begin with.
+// How ode-world reports contacts of ODE that no step can begin with.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -11,8 +11,8 @@
 namespace broadside {
 namespace {
 
-// ODE's stones of an arch of 25 touch in their first step with a normal of length zero, of which it would make states
-// that are no numbers.
+// In ODE, the stones of an arch of 25 touch in the first step with a normal of length zero, which would make states
+// that are NaN.
 TEST(OdeWorld, SaysWhichBodiesGotAContactWithoutADirection) {
   const core::EngineRow row = reference::ode_world_row();
   if (!row.absent().empty()) GTEST_SKIP() << row.absent();

@@ -47,7 +47,7 @@ std::vector<core::Pair> all_pairs(const std::vector<core::Box>& boxes) {
   return pairs_of_plugin(engine.value(), boxes).value().pairs;
 }
 
-// Enough pairs that the first buffer for them is too small.
+// So many pairs that the first buffer for them is too small.
 const std::vector<core::Box>& boxes() {
   static const std::vector<core::Box> made = datasets::uniform_boxes(2000, 5);
   return made;

@@ -1,5 +1,5 @@
-// Dynamics engines of version 2 from shared libraries: what sound ones give arrives whole, and each way to lie is one
-// clear line.
+// Dynamics engines of version 2 from shared libraries: everything that sound ones give arrives, and each kind of false
+// answer is one clear line.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -93,7 +93,8 @@ TEST(PluginWorld, StatesArriveInFloat64) {
   EXPECT_EQ(frame.boxes.size(), 3U);
 }
 
-// What depends on a setting is declared with it, or a law would judge by what the engine no longer is.
+// A declared value that depends on a setting follows that setting; otherwise a law would judge by a value that no
+// longer holds.
 TEST(PluginWorld, ASettingMayBeDeclared) {
   EXPECT_EQ(wrong_world(0).value().declaration.number("iterations"), 3.0);
   EXPECT_EQ(wrong_world(0, 16).value().declaration.number("iterations"), 16.0);
@@ -118,7 +119,7 @@ TEST(PluginWorld, TablesOfOtherHeadersAreRefusedOrRead) {
   EXPECT_NE(described("half_world").find("half a dynamics engine"), std::string::npos);
 }
 
-// A library of version 1 declares nothing: the laws of METHOD are held against it, as before there were declarations.
+// A library of version 1 declares nothing: the laws of METHOD are applied to it, as before there were declarations.
 TEST(PluginWorld, ALibraryOfVersion1WorksAsBefore) {
   auto settings = core::Settings::parse("falling", {}, {});
   auto engine = reference::create_plugin_engine(kWorldFolder + "/libfalling_engine.so", settings.value(),

@@ -44,7 +44,8 @@ TEST(ApartTrees, FindsExactlyTheOverlappingPairs) {
       }
 }
 
-// Ten frames in which a tenth of 6,000 boxes moves, then a static box that does: seen, and exact.
+// Ten frames in which a tenth of 6,000 boxes moves, then a frame in which a static box moves: the change is seen, and
+// the pairs are exact.
 TEST(ApartTrees, AreBuiltAgainOnlyWhereAStaticBoxChanged) {
   BoxCase c;
   c.boxes = datasets::uniform_boxes(6000, 1);
@@ -72,15 +73,15 @@ TEST(ApartTrees, AreBuiltAgainOnlyWhereAStaticBoxChanged) {
   EXPECT_FALSE(broad->update(c.boxes).ok());
 }
 
-// What a frame tests does not grow with the static boxes that no moving one is near: ten times as many cost the levels
-// of a tree that is one deeper.
+// The tests of a frame do not grow with static boxes that are far from every moving one: ten times as many static boxes
+// add only one more level to the tree.
 TEST(ApartTrees, TestsOfAFrameDoNotGrowWithTheStaticWorld) {
   const auto tests_of = [](std::uint32_t static_boxes) {
     BoxCase c;
     c.boxes = datasets::uniform_boxes(1000, 1);
     c.is_static.assign(1000, 0);
     for (const Box& b : datasets::uniform_boxes(static_boxes, 2)) {
-      // Beyond the moving ones, which fill a cube of 10.
+      // Outside the moving boxes, which fill a cube of 10.
       c.boxes.push_back(core::translated(b, {9.0F, 0.0F, 0.0F}));
       c.is_static.push_back(1);
     }

@@ -48,7 +48,7 @@ inline core::Box box_at(core::Vec3 c, core::Vec3 sides) {
           {c.x + 0.5F * sides.x, c.y + 0.5F * sides.y, c.z + 0.5F * sides.z}};
 }
 
-// Two floats in order, in either order where they are equal: min +0 and max -0 is a sound side.
+// A side from two floats in order, or in either order where they are equal: min +0 and max -0 is a sound side.
 inline void put_side(core::Box& box, int axis, float a, float b) {
   box.min[axis] = b < a ? b : a;
   box.max[axis] = b < a ? a : b;
@@ -95,11 +95,11 @@ inline constexpr BoxFamily kBoxFamilies[] = {
      }},
     {"identical",
      [](Draw&, std::uint32_t k, float n) {
-       // Groups, since all of them alike would be n^2 / 2 pairs.
+       // In groups, since boxes that are all alike would give n^2 / 2 pairs.
        const auto group = static_cast<float>(k % (1U + static_cast<std::uint32_t>(n / 32.0F)));
        return core::Box{{group * 4.0F, 1.0F, 1.0F}, {group * 4.0F + 1.0F, 2.0F, 2.0F}};
      }},
-    // Cells of a lattice: neighbours touch on faces, edges and corners, exactly.
+    // Cells of a lattice: neighbors touch on faces, edges and corners, exactly.
     {"touching lattice",
      [](Draw&, std::uint32_t k, float n) {
        const auto side = static_cast<std::uint32_t>(cube_side(n)) + 1U;
@@ -179,7 +179,8 @@ inline constexpr BoxFamily kBoxFamilies[] = {
        }
        return box;
      }},
-    // Zeros of both signs, the smallest subnormals and normals, and their neighbors: what differs by a sign or a bit.
+    // Zeros of both signs, the smallest subnormals and normals, and their neighbors: numbers that differ by a sign or a
+    // bit.
     {"signed zeros and subnormals",
      [](Draw& d, std::uint32_t, float) {
        constexpr float kValues[] = {0.0F, -0.0F, 0x1p-149F, -0x1p-149F, 0x1p-148F, 0x1p-126F, -0x1p-126F, 0x1.8p-127F};
@@ -194,7 +195,7 @@ inline constexpr BoxFamily kBoxFamilies[] = {
        if (k == 3) return core::Box{{0.0F, 0.0F, 0.0F}, {-0.0F, -0.0F, -0.0F}};
        return box_at({d.between(0, w), d.between(0, w), d.between(0, w)}, {1.0F, 1.0F, 1.0F});
      }},
-    // Lattices of a few subnormal steps: half of an odd number of them is rounded.
+    // Lattices of a few subnormal steps: half of an odd number of steps must be rounded.
     {"a few smallest steps",
      [](Draw& d, std::uint32_t, float) {
        core::Box box;

@@ -43,7 +43,8 @@ void expect_every_frame(core::BroadPhase& broad, datasets::BoxStream& stream, st
   }
 }
 
-// A hundredth of a side a frame: a sixteenth lasts six frames, and those next to it.
+// Boxes move by a hundredth of a side a frame and are fattened by a sixteenth, so the candidates of a search last for
+// some six frames.
 TEST(KeptPairs, SavesSearchesWhereBoxesMoveLittle) {
   datasets::BoxStream stream = datasets::moving_boxes(1500, 3, 40, 0.0);
   const auto broad = reference::make_kept_broad_phase(1);
@@ -59,7 +60,8 @@ TEST(KeptPairs, IsExactAndGivesUpWhereBoxesJump) {
   expect_every_frame(*broad, stream, 40);
   const auto counts = counts_of(*broad);
   EXPECT_EQ(counts.at("broad: frames of kept pairs"), 0U);
-  // Tries in frames 0, 3, 8, 17, 34: after each one in vain twice as many frames are searched as they are.
+  // Searches of fat boxes are tried in frames 0, 3, 8, 17, 34: after each failure the pause, in which boxes are
+  // searched without fattening, is twice as long.
   const auto plain = reference::make_tree_broad_phase(1);
   datasets::BoxStream again = datasets::moving_boxes(1500, 3, 40, 0.1);
   expect_every_frame(*plain, again, 40);

@@ -1,5 +1,5 @@
 // Whatever passes a set of boxes is searched in, the pairs are those of trying all, each once; and sets that need
-// passes get them.
+// passes are searched in passes.
 #include "reference/scene_octree/pass_trees.hpp"
 
 #include <gtest/gtest.h>
@@ -49,7 +49,7 @@ TEST(PassTrees, FindsExactlyTheOverlappingPairsOfEveryFamily) {
         ASSERT_EQ(wrong, "") << family.name << ", seed " << seed;
         with_passes += trees.plan().is_plain() ? 0 : 1;
       }
-  // One family, at least, of 15 cases.
+  // At least one family, which has 15 cases.
   EXPECT_GE(with_passes, 15) << "else this test says nothing about passes";
 }
 
@@ -68,7 +68,7 @@ TEST(PassTrees, FindsExactlyTheOverlappingPairsOfThinAndUnevenBoxes) {
   }
 }
 
-// Needles in a crowd of cubes, plates of two directions, and one box of each kind that a sample would not see.
+// Needles in a crowd of cubes, plates in two directions, and one box each of kinds that a sample would not contain.
 TEST(PassTrees, FindsPairsBetweenGroups) {
   Draw draw(3);
   BoxCase c;
@@ -85,7 +85,7 @@ TEST(PassTrees, FindsPairsBetweenGroups) {
   EXPECT_EQ(pairs_of(trees, c), every_pair(c));
 }
 
-// The kinds of sets that the races are held on are searched as they are: passes would cost them time.
+// The kinds of sets that the races use are searched without passes, which would cost them time.
 TEST(PassPlan, LeavesUsualSetsAlone) {
   for (const char* spec : {"boxes:uniform:20000", "boxes:heaps:20000", "boxes:mixed:20000", "boxes:line:20000",
                            "boxes:plane:20000", "boxes:flat:20000", "boxes:far:20000", "boxes:spiral:20000",
@@ -96,7 +96,7 @@ TEST(PassPlan, LeavesUsualSetsAlone) {
   }
 }
 
-// 100,000 needles: 2 n^2 / 6 tests as they are, and hardly any but those of sorting in passes.
+// 100,000 needles: without passes 2 n^2 / 6 tests; in passes hardly any besides those of sorting.
 TEST(PassPlan, GivesNeedlesThreePassesAndALargeGain) {
   const auto plan = core::plan_passes(datasets::needle_boxes(100'000, 1));
   ASSERT_EQ(plan.passes.size(), 3U);

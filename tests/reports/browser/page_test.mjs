@@ -33,7 +33,7 @@ function make_page(folder, scene) {
   return page;
 }
 
-// What has no place in a run of one scene: narrow phases beside the exact answer, and a paper's table with its figures.
+// What a run of one scene cannot show: narrow phases beside the exact answer, and a paper's table with its figures.
 function make_other_page(folder) {
   broadside([0, 3], "agree", "--pairs", "boxes", "--n", "400", "--out", folder);
   const paper = path.join(folder, "paper");
@@ -47,7 +47,7 @@ function make_other_page(folder) {
 function hostile_scene() {
   const name = "</script><script>window.hostile=1</script><img src=x onerror=window.hostile=2>";
   const file = path.join(work, "hostile.toml");
-  // The scene of erratum E3, which has what every section shows, under a name that no page may run.
+  // The scene of erratum E3, which fills every section of the page, under a hostile name that no page may execute.
   const given = readFileSync(scene_file, "utf8");
   writeFileSync(file, given.replace(/^name = .*$/m, `name = '${name}'`));
   return { file, name };
@@ -143,7 +143,7 @@ const tests = {
     assert.notEqual(near.content, whole.content, "the camera flew");
     assert.ok(near.red > 100, `the marked pair is red: ${near.red} pixels`);
     await page.screenshot({ path: path.join(work, "view.png") });
-    // Each layer is to be seen, also where it lies inside bodies.
+    // Each layer must be visible, also where it lies inside bodies.
     for (const layer of ["candidate pairs", "contacts, normals"]) {
       const toggle = () => page.evaluate((name) => [...document.querySelectorAll("#view .layers label")].find((l) => l.textContent.includes(name)).querySelector("input").click(), layer);
       await toggle();
@@ -208,7 +208,7 @@ const tests = {
 
   async "with scripts off all is there to read"(file) {
     const { page } = await opened(file, { scripts: false });
-    // Only what the browser itself can do is asked of this page.
+    // Checks only what the browser itself can tell about this page.
     const text = readFileSync(file, "utf8");
     assert.match(text, /What did not pass/);
     await page.screenshot({ path: path.join(work, "no_script.png"), fullPage: true });

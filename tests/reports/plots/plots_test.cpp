@@ -165,7 +165,7 @@ TEST(Histogram, EveryFiniteValueIsInOneBin) {
   EXPECT_EQ(with_class(markup, "rect", "s0").size(), 4U);
 }
 
-// What every plot needs for readers who cannot see it and for hostile names.
+// What every plot must have: a text for readers who cannot see it, and safety with hostile names.
 TEST(Plots, NamesAreEscapedAndTitlesAreThere) {
   const PlotText text{kHostileLabel, kHostileLabel, kHostileLabel, kHostileLabel};
   const std::vector<double> two{1.0, 2.0};

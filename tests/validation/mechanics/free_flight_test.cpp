@@ -9,7 +9,7 @@ namespace {
 
 using bench::Specimen;
 
-// Falls from rest: dv = -g h = -1/8 m/s, and half of h dv of way.
+// A fall from rest: dv = -g h = -1/8 m/s, and a displacement of half of h dv.
 Specimen fallen(double more_velocity, double more_way) {
   Specimen r = one_step(1);
   end_step(r, [&](core::WideStates& s) {
@@ -28,7 +28,8 @@ TEST(Ballistic, AllowsTheRoundingOfTheVelocity) {
 }
 
 TEST(Ballistic, AllowsAWayBetweenBothVelocities) {
-  // From rest to -1/8 m/s: the way ends between 0 and -h/8; 4 u of that and h times the velocity's own limit.
+  // From rest to -1/8 m/s: the displacement is between 0 and -h/8; the limit is 4 u of that, and h times the limit of
+  // the velocity.
   const double limit = 4 * kU * kStep / 8 + kStep * 13 * kU / 8;
   expect_limit("ballistic", limit, [](double off) { return fallen(0, 0.5 * kG * kStep * kStep + off); },
                {"dx = ", "h v = 0 to"});
@@ -61,7 +62,7 @@ Specimen answered_fall(const std::string& substeps, double off) {
 }
 
 TEST(ClosedForm, AllowsTheRoundingOfEverySubstep) {
-  // 4 u of |v| + |g| h = 1/4 m/s, each time that a substep adds to the velocity.
+  // 4 u of |v| + |g| h = 1/4 m/s, each time a substep adds to the velocity.
   for (const int substeps : {1, 16})
     expect_limit("closed-form", substeps * 4 * kU / 4,
                  [&](double off) { return answered_fall(std::to_string(substeps), off); }, {"velocity is off by "});

@@ -1,4 +1,4 @@
-// momentum, angular-momentum, friction-cone and unilateral: what points of contact do to bodies.
+// momentum, angular-momentum, friction-cone and unilateral: the laws about what contact points do to bodies.
 #include <cmath>
 
 #include "core/contact.hpp"
@@ -31,8 +31,8 @@ Specimen on_floor(core::Vec3 v0, core::WideVec3 v1, core::Vec3 impulse, double g
 }
 
 TEST(Momentum, AllowsTheRoundingOfItsAdditions) {
-  // At rest: m g h = 1/8 N s and J as much. 4 + 2 additions of 1/4 m/s for this point, 2 for each of four that may have
-  // been taken back, two turns of 5 operations into the body's axes and out of them, and 4 u of J in float32.
+  // At rest: m g h = 1/8 N s and J as much. 4 + 2 additions of 1/4 m/s for this point, 2 for each of four points that
+  // may have been taken back, two turns of 5 operations into the body's axes and out of them, and 4 u of J in float32.
   const double limit = 24 * kU * 0.25 + 4 * kU * 0.125;
   expect_limit("momentum", limit,
                [](double off) {
@@ -54,7 +54,7 @@ TEST(Momentum, WithoutPointsIsThatOfBodiesThatMeet) {
   expect_limit("momentum", 8 * kU * 2, met, {"sum m dv = ", "over 2 bodies"});
 }
 
-// An engine that tells where bodies touch and not how hard: nothing is held against impulses of zero.
+// An engine that reports where bodies touch and not how hard: no law is applied to its impulses of zero.
 TEST(Momentum, ReadsNoImpulsesWherePointsAreGeometry) {
   Specimen r = on_floor({}, {0, 0, 0}, {});
   EXPECT_EQ(law("momentum", r).outcome, core::Outcome::kFail) << told(law("momentum", r));
@@ -120,14 +120,14 @@ TEST(FrictionCone, LetsNoContactPull) {
   EXPECT_NE(v.explanation.find("along the normal -1e-06"), std::string::npos) << told(v);
 }
 
-// Slides along x at 4 m/s, braked by mu J n in a direction that is off.
+// A body slides along x at 4 m/s, and friction mu J n brakes it in a direction that is off.
 Specimen slides(double drag, double angle) {
   const auto impulse = single(-drag * std::cos(angle), 1, -drag * std::sin(angle));
   return on_floor({4, 0, 0}, {4, 0, 0}, impulse);
 }
 
 TEST(FrictionCone, OpposesWhatSlides) {
-  // Twice 2 g h: what the slip may have changed by since friction acted. A chord of a circle of 4 m/s.
+  // Twice 2 g h: by so much the slip may have changed since friction acted. `chord` is that of a circle of 4 m/s.
   expect_limit("friction-cone", 4 * kG * kStep, [](double chord) { return slides(0.5, 2 * std::asin(chord / 8)); },
                {"friction (-0.4", "slides at (4, 0, 0) m/s"});
 }
@@ -145,7 +145,7 @@ TEST(FrictionCone, TakesTheImpulseOfSubstepsForASum) {
 }
 
 TEST(FrictionCone, DoesNotFallShortWhereSomethingSlides) {
-  // mu J n, less the share 2 x 2 g h / 4 m/s that may be another direction's: 0.4375 N s.
+  // mu J n, less the share 2 x 2 g h / 4 m/s that may belong to another direction: 0.4375 N s.
   EXPECT_EQ(law("friction-cone", slides(0.4376, 0)).outcome, core::Outcome::kPass);
   const core::Verdict v = law("friction-cone", slides(0.4374, 0));
   EXPECT_EQ(v.outcome, core::Outcome::kFail) << told(v);
@@ -164,8 +164,8 @@ TEST(FrictionCone, MeetsNothingWithoutAnImpulse) {
 }
 
 TEST(Unilateral, AllowsWhatClosesWithinTheStep) {
-  // Falls at 1 m/s, and is stopped by 1.125 N s: without them it would have closed at that speed, and gravity may add g
-  // h.
+  // The body falls at 1 m/s and is stopped by 1.125 N s: without that impulse the gap would have closed at that speed,
+  // and gravity may add g h.
   expect_limit("unilateral", kStep * (1.125 + 0.125),
                [](double gap) {
                  return on_floor({0, -1, 0}, {}, {0, 1.125F, 0}, gap);
@@ -180,8 +180,9 @@ TEST(Unilateral, AddsTheDeclaredMargin) {
   EXPECT_EQ(law("unilateral", r).outcome, core::Outcome::kPass);
 }
 
-// A point half a meter below the center of a body that spins about z moves along the floor: its speed toward it is none
-// at the start and none at the end, and a turn of t takes it t^2 / 2 of the arm off the tangent that says so.
+// A point half a meter below the center of a body that spins about z moves along the floor. Its speed toward the floor
+// is zero at the start and at the end, but a turn by t takes it t^2 / 2 of the arm off the tangent along which that
+// speed is measured.
 TEST(Unilateral, AllowsWhatAnArcIsOffItsTangent) {
   constexpr double kArcSpin = 16.0;  // rad/s: a quarter of a radian a step
   const auto spinning = [](double gap) {

@@ -1,4 +1,4 @@
-// Ten thousand boxes, each frame judged: nothing is left out, and the time is told.
+// Ten thousand boxes, each frame judged: nothing is left out, and the time is printed.
 #include <chrono>
 #include <cmath>
 #include <cstdio>

@@ -1,5 +1,5 @@
-// Two meshes that are not convex, past each other within one step: whom the arbiter is asked about, and how deep they
-// can have been.
+// Two meshes that are not convex move past each other within one step: which pairs the arbiter is asked about, and how
+// deep they can have been.
 #include "validation/mechanics/mesh_passage.hpp"
 
 #include <gtest/gtest.h>
@@ -58,7 +58,7 @@ TEST(MeshPassage, AsksNobodyWhereSweptBoxesAreApart) {
 }
 
 TEST(MeshPassage, AsksTheArbiterWhereTheyMeet) {
-  // Slantwise past the edge: the box of the way meets the plate, the cube does not.
+  // Slantwise past the edge: the box around the cube's way meets the plate, the cube does not.
   const Passed past = passes({5.5F, 3, 0}, {2.0F, -3, 0});
   EXPECT_EQ(past.asked, 1U);
   EXPECT_LT(past.deepest_m, kRounded);

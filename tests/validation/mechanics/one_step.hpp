@@ -1,5 +1,5 @@
-// Recordings of one step of a body or two, written by hand: what a law of mechanics says just inside its limit and just
-// outside of it. The step is 1/64 s and gravity 8 m/s^2 downward, so that no number rounds.
+// Recordings of one step of a body or two, written by hand: the verdict of a law of mechanics just inside its limit and
+// just outside of it. The step is 1/64 s and gravity 8 m/s^2 downward, so that no number rounds.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -51,7 +51,7 @@ inline bench::Specimen one_step(std::size_t bodies, std::vector<double> moments 
   return r;
 }
 
-// Lays the end of the step down as the start with `change` made to it; change(core::WideStates&).
+// Sets the end of the step to the start with `change` applied to it; change(core::WideStates&).
 template <typename Change>
 core::FrameRecord& end_step(bench::Specimen& r, const Change& change) {
   core::FrameRecord& frame = r.frames.emplace_back();

@@ -1,4 +1,4 @@
-// Where bodies were between the parts of a step: what passage makes of it.
+// Where bodies were between the parts of a step, and how the law `passage` uses that.
 #include <cmath>
 #include <vector>
 
@@ -9,7 +9,7 @@ namespace {
 
 using bench::Specimen;
 
-// A cube of 1 m goes from one place to another within a step, past a static one at the origin, by way of these places.
+// A cube of 1 m moves from one place to another within a step, past a static one at the origin, through these places.
 Specimen goes(core::Vec3 from, core::Vec3 to, const std::vector<core::Vec3>& between) {
   Specimen r = one_step(2);
   r.header.scene.bodies[0].inverse_mass = 0.0F;
@@ -36,7 +36,7 @@ TEST(PartPoses, WhoCameBackThroughAnotherPassed) {
   EXPECT_EQ(back.outcome, core::Outcome::kFail) << told(back);
 }
 
-// Fewer than the bodies are, or one that is no number: the law takes the ends alone.
+// Fewer poses than bodies, or one that is NaN: the law uses the two ends alone.
 TEST(PartPoses, ThatAreNoneAreNotTaken) {
   Specimen few = goes({-2, 0, 0}, {2, 0, 0}, {{-2, 3, 0}, {2, 3, 0}});
   few.frames.front().part_poses.pop_back();

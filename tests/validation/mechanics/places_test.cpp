@@ -1,4 +1,5 @@
-// contact-truth, penetration, passage, energy-growth and rest: where bodies are, and what that costs.
+// contact-truth, penetration, passage, energy-growth and rest: the laws about where bodies are, and about the energy of
+// their motion.
 #include <array>
 #include <cmath>
 #include <memory>
@@ -13,7 +14,7 @@ namespace {
 
 using bench::Specimen;
 
-// What one step of gravity brings two bodies at rest together: h^2 g each.
+// By how much one step of gravity brings two bodies at rest closer together: h^2 g each.
 constexpr double kApproach = 2 * kG * kStep * kStep;
 
 // A box on another one, that deep.
@@ -148,7 +149,7 @@ Specimen passes(double depth, double way = 8.0) {
 }
 
 TEST(Passage, FindsWhatIsDeepBetweenTwoFrames) {
-  // Half of the smaller side of 1 m; an eighth more of it may go unseen.
+  // The limit is half of the smaller side of 1 m; an eighth more of it may go unseen.
   EXPECT_EQ(law("passage", passes(0.45)).outcome, core::Outcome::kPass) << told(law("passage", passes(0.45)));
   const core::Verdict v = law("passage", passes(0.6));
   EXPECT_EQ(v.outcome, core::Outcome::kFail) << told(v);
@@ -260,7 +261,8 @@ Specimen pushed_for_twelve_steps(double gain) {
   return r;
 }
 
-// Work of all steps before counts, not that of the last alone: a scene with a wrench failed from its second step on.
+// The work of all earlier steps counts, not that of the last step alone: once, a scene with a wrench failed from its
+// second step on.
 TEST(EnergyGrowth, OfCompliantContactsLeavesOutTheWorkOfWrenches) {
   const core::Verdict right = law("energy-growth", pushed_for_twelve_steps(1.0));
   EXPECT_EQ(right.outcome, core::Outcome::kPass) << told(right);
@@ -302,8 +304,8 @@ TEST(Rest, IsAskedOfScenesThatStandAlone) {
   expect_nothing_met("rest", r, "does not say that it stands");
 }
 
-// A cube at rest is struck by one at 64 m/s, strikes a fixed one `gap` away, and lies where it lay when the step ends:
-// its boxes at the two ends are one.
+// A cube at rest is struck by one at 64 m/s, strikes a fixed one `gap` away, and is back in its place when the step
+// ends: its boxes at the two ends are equal.
 bench::Specimen struck_back(double gap, const char* substeps, bool is_struck) {
   bench::Specimen r = one_step(3, {1000.0, 1000.0, 1000.0});
   r.header.declaration =
@@ -320,7 +322,7 @@ bench::Specimen struck_back(double gap, const char* substeps, bool is_struck) {
   return r;
 }
 
-// h (g h + J / m sqrt(1 + mu^2)) of its center, and as little as it turns: with the mu of 0.6 of surfaces by default.
+// h (g h + J / m sqrt(1 + mu^2)) for its center, and as little as it turns; mu is 0.6, the default of surfaces.
 TEST(ContactTruth, BodiesThatOthersDroveTogetherWithinTheStepMayHaveMet) {
   const double way_m = kStep * (kG * kStep + 64.0 * std::sqrt(1.36));
   const auto outcome = [](double gap, const char* substeps, bool is_struck) {

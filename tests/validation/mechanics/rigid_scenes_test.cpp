@@ -25,7 +25,7 @@ Scene made(const datasets::SmallSceneRow& row, double step_factor) {
   return scene;
 }
 
-// The verdicts of plain-rigid on the scene, judged as it runs; none where it has not the shape.
+// The verdicts on plain-rigid in this scene, judged as it runs; none where it does not support a shape.
 std::vector<core::Verdict> verdicts_on(const Scene& scene) {
   const reference::plain::WorldOptions options;
   reference::plain::PlainWorld engine(options);
@@ -67,12 +67,12 @@ void expect_all_hold(const datasets::SmallSceneRow& row, double step_factor) {
     const bool is_answer = v.validator == "closed-form" || v.validator == "rest";
     has_answer = has_answer || (is_answer && v.outcome == core::Outcome::kPass);
   }
-  if (applied == 0) return;  // a shape that the engine has not
+  if (applied == 0) return;  // plain-rigid does not support a shape of this scene
   EXPECT_GE(applied, 4);
   EXPECT_TRUE(has_answer || scene.answer == validation::kReported);
 }
 
-// Bodies times steps, below which a scene takes a fraction of a second.
+// Bodies times steps; below this number a scene takes a fraction of a second.
 constexpr std::uint64_t kShort = 1300;
 
 TEST(RigidScenes, AllLawsHoldForPlainRigidOnShortScenes) {

@@ -1,4 +1,4 @@
-// Points that were found within a step and are told at its start: how far the laws let them have moved.
+// Points that were found within a step and are recorded at its start: how far the laws let them have moved.
 #include <gtest/gtest.h>
 
 #include "core/contact.hpp"
@@ -7,8 +7,8 @@
 namespace broadside::tests {
 namespace {
 
-// A body at 4 m/s that the floor pushes by 0.25 N s, half a meter beside and below its center; its spin ends off by
-// this much of what that gives.
+// A body at 4 m/s that the floor pushes by 0.25 N s, half a meter beside and below its center. Its spin at the end
+// differs by `off` from the one that follows.
 bench::Specimen pushed(const char* detection_at, double off) {
   bench::Specimen r = one_step(1);
   r.header.declaration = core::Declaration::of({{"precision", "f32"}, {"detection_at", detection_at}});
@@ -34,7 +34,7 @@ TEST(WaysWithin, WhatIsFoundAtTheStartIsWhereItIsTold) {
   EXPECT_EQ(v.outcome, core::Outcome::kFail) << told(v);
 }
 
-// An engine that looks again only in some steps.
+// An engine that detects again only in some steps.
 TEST(WaysWithin, AStepThatWasTakenAtOnceHasNoOther) {
   const auto by_parts = [](std::uint32_t parts) {
     bench::Specimen r = pushed("within", 0.1 * kLimit);

@@ -1,4 +1,4 @@
-// Two boxes' own manifold against the general one: the same points, with the same names, in the same order.
+// The manifold made for two boxes against the general one: the same points, with the same keys, in the same order.
 #include "core/method/rigid/box_manifold.hpp"
 
 #include <gtest/gtest.h>
@@ -55,8 +55,8 @@ BoxPair anywhere(Draw& draw) {
   return p;
 }
 
-// Face to face but for a tilt of 1e-6 to 10^log_tilt, a little apart or overlapping, and shifted along the face by up
-// to `shift` of the sides. turn: of B against A before it is tilted, from axes to axes.
+// Face to face, tilted by 1e-6 to 10^log_tilt, a little apart or overlapping, and shifted along the face by up to
+// `shift` of the sides. turn: of B against A before it is tilted; it takes axes to axes.
 BoxPair face_to_face(Draw& draw, Quat turn, float shift, float log_tilt = -1.0F) {
   BoxPair p = any_sizes(draw);
   p.a.pose = {draw.in_cube(1.0F), draw.turn()};
@@ -80,7 +80,7 @@ struct BothManifolds {
   Manifold own;
   Manifold general;
 
-  // Both along the axis: they show the faces, not nearest points.
+  // Both normals are the separating axis, so the points are those of the faces and not nearest points.
   [[nodiscard]] bool show_faces() const {
     return own.count > 0 && general.count > 0 && own.normal == axis.normal && general.normal == axis.normal;
   }
@@ -109,7 +109,7 @@ bool has_point_at(const Manifold& m, const ManifoldPoint& p, float near_m) {
   return false;
 }
 
-// Points of `of` whose keys `in` has.
+// How many points of `of` have keys that `in` has too.
 int keys_shared(const Manifold& of, const Manifold& in) {
   int shared = 0;
   for (int k = 0; k < of.count; ++k) shared += point_named(in, of.points[k].feature) != nullptr ? 1 : 0;
@@ -122,10 +122,11 @@ bool has_keys_in_order(const Manifold& m) {
   return true;
 }
 
-// A crossing of lines that are nearly parallel is off by rounding over their angle.
+// The point where two nearly parallel lines cross is off by rounding divided by their angle.
 constexpr float kNearM = 1.0e-3F;
 
-// Of the four that are kept of more, others may be kept where two are as good but for rounding: of one in 200.
+// Where more than four points are found, rounding may choose another one of two equally good points; that happens in at
+// most one pair of 200.
 constexpr int kOfOthers = 200;
 
 TEST(BoxManifolds, HaveThePointsOfTheGeneralOne) {
@@ -151,8 +152,9 @@ TEST(BoxManifolds, HaveThePointsOfTheGeneralOne) {
   EXPECT_LT(others * kOfOthers, pairs);
 }
 
-// Neighbors in a row, or on each other: none of a face's edges is named as one of the other face. The keys decide in
-// which order points are solved. Before, dominoes of a row, solved in another order, leaned.
+// Boxes beside or on each other have parallel edges, and no edge of a face may be taken for an edge of the other face.
+// The keys decide in which order points are solved. Before, the keys of dominoes in a row had another order, and the
+// dominoes leaned.
 TEST(BoxManifolds, OfNeighborsHaveTheKeysOfTheGeneralOneInItsOrder) {
   Draw draw(2);
   int pairs = 0;
@@ -174,7 +176,8 @@ TEST(BoxManifolds, OfNeighborsHaveTheKeysOfTheGeneralOneInItsOrder) {
   EXPECT_LT(others * kOfOthers, pairs);
 }
 
-// Of a box that stands on the middle of another one: to whatever side it would tilt, something holds it there.
+// For a box that stands on the middle of another one: toward whatever side it would tilt, a contact point holds it
+// there.
 TEST(BoxManifolds, HoldABoxOnAllSides) {
   Draw draw(3);
   int pairs = 0;
@@ -202,7 +205,8 @@ TEST(BoxManifolds, HoldABoxOnAllSides) {
   EXPECT_GT(pairs, 2000);
 }
 
-// What warm starting is found by: a step of a slow body changes as few keys as with the general manifold.
+// Warm starting finds points by their keys. When a body moves slowly, a step changes as few keys as with the general
+// manifold.
 TEST(BoxManifolds, KeepTheirKeysThroughSmallMotions) {
   Draw draw(4);
   int points = 0;

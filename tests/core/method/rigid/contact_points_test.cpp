@@ -27,8 +27,9 @@ bool has(const std::vector<std::uint32_t>& features, std::uint32_t feature) {
 }
 
 // A card of 1 m by 0.5 m by 2 cm stands on the edge of its lower side at x = -0.5 and comes down about it. Corners 1
-// and 2 are that edge's, 3 and 4 the lower side's other ones, 5 to 8 the upper side's above 1 to 4. Leaning, corners 5
-// and 6 are farther out than 1 and 2. Before, one of them was kept, and the card stood on a single corner.
+// and 2 are the ends of that edge, 3 and 4 the other ones of the lower side, 5 to 8 the upper side's above 1 to 4.
+// While the card leans, corners 5 and 6 are farther out than 1 and 2. Before, one of them was kept, and the card stood
+// on a single corner.
 TEST(KeepFour, ACardThatComesDownStandsOnItsEdge) {
   constexpr float kThick_m = 0.02F;
   for (int step = 0; step <= 120; ++step) {
@@ -49,7 +50,7 @@ TEST(KeepFour, ACardThatComesDownStandsOnItsEdge) {
   }
 }
 
-// Of two candidates at nearly the same place the deeper one.
+// Of two candidates at nearly the same place the deeper one is kept.
 TEST(KeepFour, OfTwoAtOnePlaceTheDeeper) {
   std::mt19937 bits(7);
   const auto in = [&](float least, float most) { return std::uniform_real_distribution<float>(least, most)(bits); };
@@ -67,7 +68,7 @@ TEST(KeepFour, OfTwoAtOnePlaceTheDeeper) {
   }
 }
 
-// The corners of a bunny that stands on two of them (x and z about its center, gap, m). By the areas that they span the
+// The corners of a bunny that stands on two of them (x and z about its center, gap, m). When areas alone decided, the
 // second one, which lies between the others, was left out, and the bunny rolled over it.
 TEST(KeepFour, WhatABodyStandsOnIsKeptBetweenHigherCorners) {
   const std::vector<ManifoldPoint> corners = {{{-0.513F, -0.311F, -0.289F}, -0.000158F, 1},
@@ -78,8 +79,8 @@ TEST(KeepFour, WhatABodyStandsOnIsKeptBetweenHigherCorners) {
   EXPECT_TRUE(has(kept_of(corners, 0.27F), 2));
 }
 
-// What hides under the triangle of three is deeper than their plane: of four corners around it and one below the
-// middle, which is a little higher than the first, that one is kept.
+// A candidate may lie deeper than the plane of three kept ones. Here four corners lie around a fifth one, which is near
+// the middle and only a little higher than the first: the fifth one is kept.
 TEST(KeepFour, ACornerBelowThePlaneOfTheOthersIsKept) {
   const std::vector<ManifoldPoint> corners = {{{0.0F, 0.0F, 0.0F}, 0.0F, 1},
                                               {{1.0F, 0.0F, 0.0F}, 0.030F, 2},

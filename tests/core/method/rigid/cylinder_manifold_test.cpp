@@ -1,6 +1,6 @@
-// Cylinders, which the exact arbiter of convex cores does not know: certified by themselves. A point that lies on both
-// surfaces says that bodies are no farther apart than its gap; the plane across the normal says that they are no
-// nearer. Where they overlap, no direction of a fine search may part them by a shorter way.
+// Cylinders, for which the exact arbiter of convex cores has no formula: the points certify themselves. A point that
+// lies on both surfaces says that the bodies are no farther apart than its gap; the plane across the normal says that
+// they are no nearer. Where they overlap, no direction of a fine search may separate them by a shorter way.
 #include "core/method/rigid/cylinder_manifold.hpp"
 
 #include <gtest/gtest.h>
@@ -88,7 +88,7 @@ testing::AssertionResult is_certified(const Subject& a, const Subject& b, float 
   const auto wrong = [] { return testing::AssertionFailure(); };
   Manifold m[kPatchesOfPair];
   const int count = make_manifolds(a.shape, a.pose, b.shape, b.pose, reach_m, m);
-  // As for polytopes; and the last rim is round to two roundings of the radius.
+  // As for polytopes; and a rim is round only to within two roundings of the radius.
   const double rounding = 3.0 * rounding_of(a, b);
   const double widest = widest_gap(a, b);
   if (count == 0) {
@@ -101,7 +101,8 @@ testing::AssertionResult is_certified(const Subject& a, const Subject& b, float 
     const ManifoldPoint& p = m[0].points[k];
     deepest = std::min(deepest, static_cast<double>(p.gap_m));
     const Point middle = at_world(a, p.point);
-    // Points of a line or an end share the normal of the deepest one, up to 8 degrees beside their own.
+    // Points along a line or around an end share the normal of the deepest one, which is up to 8 degrees from their
+    // own.
     const double allowed = 2.0 * rounding + 0.5 * 0.1411 * std::abs(p.gap_m);
     const double off_a = off(a, middle + (0.5 * p.gap_m) * n);
     const double off_b = off(b, middle - (0.5 * p.gap_m) * n);
@@ -212,8 +213,8 @@ TEST(Cylinders, StandAndLie) {
   EXPECT_NEAR(std::abs(m[0].points[0].point.x - m[0].points[1].point.x), 2.0F, 1e-5F);
 }
 
-// Of the convex mesh nothing is known but its triangles; it is certified by its solid. The deepest point of a patch
-// has the patch's normal.
+// For the convex mesh the engine has its triangles alone; the result is certified with its solid. The deepest point of
+// a patch has the patch's normal.
 TEST(Cylinders, BesideAMeshAreRound) {
   Draw draw(11);
   for (int trial = 0; trial < 40; ++trial) {
@@ -241,7 +242,7 @@ TEST(Cylinders, BesideAMeshAreRound) {
     for (int k = 0; k < m[0].count; ++k) {
       if (m[0].points[k].gap_m != gap) continue;
       const Point middle = at_world(a, m[0].points[k].point);
-      // A point's own normal may be up to 8 degrees beside the common one, as above.
+      // The normal of a point may be up to 8 degrees from the common one, as above.
       const double allowed = rounding + 0.5 * 0.1411 * std::abs(gap);
       EXPECT_LE(off(a, middle + (0.5 * gap) * n), allowed) << "trial " << trial;
       EXPECT_LE(off(b, middle - (0.5 * gap) * n), allowed) << "trial " << trial;
@@ -249,7 +250,7 @@ TEST(Cylinders, BesideAMeshAreRound) {
   }
 }
 
-// Standing, it has points spread over its end; lying, along the line that is lowest.
+// A standing cylinder has points spread over its end; a lying one has them along its lowest line.
 TEST(Cylinders, StandAndLieOnAFloorOfTriangles) {
   MeshBody floor(floor_mesh());
   Draw draw(12);
@@ -278,8 +279,8 @@ TEST(Cylinders, StandAndLieOnAFloorOfTriangles) {
       // Beside the line, the edge of a triangle is met in a direction up to 8 degrees (0.99) from the normal.
       EXPECT_LE(m[0].points[k].gap_m, -depth + (stands ? 0.0 : 0.4 * (1.0 / 0.99 - 1.0)) + rounding) << trial;
     }
-    // Both ends of the line: before, of points that are level rounding chose one as the deepest, and all others kept
-    // were between it and the farther end.
+    // Both ends of the line have a point. Before, rounding chose the deepest one of points that are level, and all
+    // others kept were between it and the farther end.
     EXPECT_GT(high - low, stands ? 0.5F : 0.6F - 1e-3F) << "trial " << trial;
   }
 }

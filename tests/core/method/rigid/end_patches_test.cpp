@@ -1,4 +1,5 @@
-// Patches of where bodies that turn end: a corner that comes down within a step is a point from the step's start on.
+// Patches for the end of a step in which bodies turn: a corner that comes down within the step is a contact point from
+// the step's start on.
 #include "core/method/rigid/end_patches.hpp"
 
 #include <gtest/gtest.h>
@@ -43,8 +44,8 @@ Turned over_the_floor(float from_degrees, float to_degrees, float sunk_m) {
 }
 
 TEST(EndPatches, TakeACornerThatComesDownBackToTheStart) {
-  // The edge at (-sin, cos) of the tilt is 0.77 m up and ends 9 cm deep. The face that looks down at the start is the
-  // other one.
+  // The edge at (-sin, cos) of the tilt is 0.77 m up at the start and ends 9 cm deep. At the start another face looks
+  // down.
   const Turned t = over_the_floor(40.0F, 95.0F, 0.0F);
   ASSERT_EQ(t.at_start, 1);
   ASSERT_EQ(t.count, 2);
@@ -60,9 +61,9 @@ TEST(EndPatches, TakeACornerThatComesDownBackToTheStart) {
 }
 
 TEST(EndPatches, LeaveWhatPatchesOfTheStartForeseeToThem) {
-  // The edge that it stands on sinks in; a point of the start says so.
+  // The edge that the cube stands on sinks in, and a point of the start's patch is there already.
   EXPECT_EQ(over_the_floor(40.0F, 45.0F, 0.05F).count, 1);
-  // It falls over to its face, whose corners the start has.
+  // The cube falls over onto its face, whose corners are in the start's patch.
   EXPECT_EQ(over_the_floor(5.0F, -3.0F, 0.0F).count, 1);
 }
 

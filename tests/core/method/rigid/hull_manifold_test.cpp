@@ -1,4 +1,4 @@
-// The manifold of two finely cut hulls that are apart is that of their nearest points, however near they are.
+// For two finely cut hulls that are apart, the manifold is that of their nearest points, however near they are.
 #include "core/method/rigid/hull_manifold.hpp"
 
 #include <gtest/gtest.h>

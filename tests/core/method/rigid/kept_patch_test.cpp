@@ -1,4 +1,4 @@
-// A patch that is carried with its bodies is the patch that they have, to within what it may be off.
+// A patch that is carried along with its bodies equals the patch that they would get anew, to within the allowed error.
 #include "core/method/rigid/kept_patch.hpp"
 
 #include <gtest/gtest.h>
@@ -33,7 +33,7 @@ struct Touching {
   Manifold manifold;
 };
 
-// Two round hulls that touch, turned anyhow.
+// Pairs of round hulls that touch, turned at random.
 class Hulls {
  public:
   explicit Hulls(std::uint64_t seed) : draw(seed) {
@@ -44,7 +44,7 @@ class Hulls {
       Touching t{hulls_[static_cast<std::size_t>(draw.below(4))], hulls_[static_cast<std::size_t>(draw.below(4))], {}};
       t.a.pose = {draw.in_cube(20.0F), draw.turn()};
       t.b.pose = {t.a.pose.x + 0.95F * normalized(draw.in_cube(1.0F)), draw.turn()};
-      // The nearest point moves as the body does, so it is brought nearer a few times.
+      // The nearest point changes as the body moves, so the body is brought nearer a few times.
       Manifold found[kPatchesOfPair];
       int count = 0;
       for (int nearer = 0; nearer < 6; ++nearer) {
@@ -128,7 +128,8 @@ TEST(KeptPatch, KnowsHowFarPointsHaveMoved) {
   EXPECT_GT(tightest, 0.9F);
 }
 
-// Of bodies that move by less than a patch may be carried, its least gap is their distance to within that.
+// For bodies that move by less than the limit for carrying a patch, its least gap is their distance to within that
+// limit.
 TEST(KeptPatch, IsOffByNoMoreThanItMayBe) {
   Hulls hulls(4);
   int carried_count = 0;

@@ -56,7 +56,7 @@ struct Family {
   Make a;
   Make b;
 
-  // The arbiter tries every pair of edges of two hulls, so theirs are a fifth of the trials.
+  // The arbiter tries every pair of edges of two hulls, so cases of hulls get a fifth of the trials.
   [[nodiscard]] int trials(int most) const { return std::string_view(name).ends_with("hull") ? most / 5 : most; }
 };
 
@@ -111,8 +111,8 @@ TEST(Manifolds, OfRandomPairsAgreeWithTheExactDistance) {
   }
 }
 
-// So many edges that a bound on the distance says which of them are looked at: of round hulls and of flat ones, with a
-// reach that leaves all of them.
+// Hulls with so many pairs of edges that a bound on the distance decides which pairs are looked at: round hulls and
+// flat ones, within a reach that leaves none of them out.
 TEST(Manifolds, OfHullsWithManyEdgesAgreeWithTheExactDistance) {
   Draw draw(7);
   const auto many_edges = [&draw] {

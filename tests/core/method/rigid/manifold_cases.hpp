@@ -110,7 +110,7 @@ class Draw {
     return {static_cast<float>(w / size), static_cast<float>(x / size), static_cast<float>(y / size),
             static_cast<float>(z / size)};
   }
-  // One of the turns that take axes to axes, so that faces and edges are parallel.
+  // A random turn that takes axes to axes, so that faces and edges are parallel.
   Quat quarter_turns() {
     const float half = std::sqrt(0.5F);
     const Quat turns[] = {{1, 0, 0, 0},       {half, half, 0, 0}, {half, 0, half, 0},
@@ -122,7 +122,7 @@ class Draw {
   std::mt19937_64 random_;
 };
 
-// The hull of so many points of an ellipsoid, turned anyhow.
+// The hull of so many points of an ellipsoid, turned at random.
 inline Subject cut_ellipsoid(Draw& draw, Vec3 half, int corners) {
   std::vector<Vec3> points;
   for (int k = 0; k < corners; ++k) {
@@ -152,8 +152,8 @@ inline double off_surface(const Subject& s, exact::Point p) {
   return std::abs(exact::signed_distance(alone, s.placed()).distance_m);
 }
 
-// Everything that is promised of a pair of convex bodies. Three roundings: that of the gap itself, that by which a
-// later axis must be wider before it is taken, and that within which a side counts as touched.
+// Checks everything that is promised for a pair of convex bodies. Three roundings are allowed: that of the gap itself,
+// that by which a later axis must be wider before it is taken, and that within which a side counts as touched.
 inline testing::AssertionResult is_right(const Subject& a, const Subject& b, float reach_m, const Manifold* given,
                                          int count) {
   const auto wrong = [] { return testing::AssertionFailure(); };
@@ -171,7 +171,7 @@ inline testing::AssertionResult is_right(const Subject& a, const Subject& b, flo
   if (!(std::abs(std::sqrt(dot(n, n)) - 1.0) < 8.0 * 0x1p-24))
     return wrong() << "normal of length " << std::sqrt(dot(n, n));
   const double along = -exact::overlap_along(placed_a, placed_b, n);
-  // Faces over each other stand for nearest points beside them that are as near within a sixteenth.
+  // Faces over each other may stand for nearest points beside them where they are as near to within a sixteenth.
   const bool has_faces = a.truth.radius_m == 0.0 && b.truth.radius_m == 0.0;
   const double share = has_faces && truth.distance_m > 0.0 ? truth.distance_m / 16.0 : 0.0;
   // Apart, a direction between nearest points is off by their rounding over the distance, which is second order here.
@@ -189,7 +189,7 @@ inline testing::AssertionResult is_right(const Subject& a, const Subject& b, flo
     const exact::Point middle = at_world(a, p.point);
     const double off_a = off_surface(a, middle + (0.5 * p.gap_m) * n);
     const double off_b = off_surface(b, middle - (0.5 * p.gap_m) * n);
-    // Ends of a capsule have normals of their own, up to 8 degrees (0.1411) beside the common one.
+    // Points at the ends of a capsule have normals of their own, up to 8 degrees (0.1411) from the common one.
     const bool is_capsule = a.shape.kind == ContactKind::kCapsule || b.shape.kind == ContactKind::kCapsule;
     const double off = 2.0 * rounding + (is_capsule ? 0.5 * 0.1411 * std::abs(p.gap_m) : 0.0);
     if (!(off_a <= off))

@@ -1,5 +1,5 @@
-// Meshes: a convex one has the distance that the exact arbiter gives its solid; floors, notches and planes have the
-// contacts that can be said by hand.
+// Meshes: a convex one has the distance that the exact arbiter gives for its solid; floors, notches and planes have
+// contacts that can be worked out by hand.
 #include "core/method/rigid/mesh_manifold.hpp"
 
 #include <gtest/gtest.h>
@@ -26,7 +26,7 @@ TEST(Meshes, ThatAreConvexAreAsFarApartAsTheirSolids) {
     Manifold m[kPatchesOfPair];
     const int count = make_manifolds(a.shape, a.pose, mesh.shape, b.pose, 0.1F, m);
     ASSERT_GE(count, 1) << "trial " << trial;
-    // Twice of a polytope's: the axis between a triangle and the body, and where its sides are.
+    // Twice that of a polytope: once for the axis between a triangle and the body, once for the places of its sides.
     const double rounding = 6.0 * rounding_of(a, b);
     EXPECT_NEAR(deepest(m, count), truth, rounding) << "trial " << trial;
     EXPECT_NEAR(-exact::overlap_along(a.placed(), b.placed(), exact::to_point(m[0].normal)), truth, rounding) << trial;
@@ -79,7 +79,7 @@ TEST(Meshes, ABoxOnAFlatFloorHasItsFourCornersAndNothingOfInnerEdges) {
                                             placed_shape(floor.shape, floor.pose, {})));
       reach += std::hypot(m[0].points[k].point.x, m[0].points[k].point.z);
     }
-    // Corners are 0.5 m from the middle. The deepest of points that are level is one of rounding's choice, which may
+    // Corners are 0.5 m from the middle. Of points that are equally deep rounding chooses the deepest one, which may
     // lie on an edge; the other three are then corners.
     EXPECT_GT(reach, 3.0 * 0.5) << "trial " << trial;
   }
@@ -144,8 +144,8 @@ TEST(Meshes, AMeshInTheNotchOfAnother) {
   EXPECT_NEAR(deepest(m + 1, 1), 0.0005F, 1e-6F);
 }
 
-// Bodies that come fast are looked at from far: most pairs of triangles are then farther apart than the points that are
-// kept, and are passed over. All pairs give the same patches, bit for bit.
+// For bodies that approach fast, triangles are looked at within a large reach. Most pairs are then farther apart than
+// the points that are kept, and are passed over. Trying all pairs gives the same patches, bit for bit.
 TEST(Meshes, FarTrianglesArePassedOverWithoutATrace) {
   Draw draw(5);
   int full = 0;
@@ -190,7 +190,8 @@ TEST(Meshes, FarTrianglesArePassedOverWithoutATrace) {
   EXPECT_GT(full, 0) << "no trial had more points than are kept";
 }
 
-// Nodes that are passed over for where they look have no triangles that look at each other; and some are.
+// Where nodes are passed over because of the directions they face, no two of their triangles face each other; and some
+// nodes are passed over.
 TEST(Meshes, NodesLookWhereverATriangleDoes) {
   Draw draw(6);
   MeshBody a(datasets::lumpy_mesh(320, 1).value());
@@ -213,13 +214,13 @@ TEST(Meshes, NodesLookWhereverATriangleDoes) {
   EXPECT_GT(passed_over, 1000);
 }
 
-// By the distance to every triangle and the solid angle that all of them fill.
+// Checked by the distance to every triangle and by the solid angle that all of them fill.
 TEST(MeshInside, IsWhereTheSurfaceSurrounds) {
   Draw draw(8);
   const MeshBody body(datasets::lumpy_mesh(320, 1).value(), true);
   int inside = 0;
   for (int trial = 0; trial < 400; ++trial) {
-    // Some on the lines through vertices, where a ray meets corners and edges.
+    // Some points lie on lines through vertices, where a ray meets corners and edges.
     Vec3 p = draw.in_cube(1.3F);
     if (trial % 3 == 0) {
       const Vec3 v =
@@ -236,7 +237,7 @@ TEST(MeshInside, IsWhereTheSurfaceSurrounds) {
       const double la = norm(c[0]), lb = norm(c[1]), lc = norm(c[2]);
       angle += 2.0 * std::atan2(dot(c[0], cross(c[1], c[2])),
                                 la * lb * lc + dot(c[0], c[1]) * lc + dot(c[1], c[2]) * la + dot(c[2], c[0]) * lb);
-      // The nearest of many points of the triangle: no nearer than the truth.
+      // The nearest of many points of the triangle, which is no nearer than the true distance.
       for (int u = 0; u <= 12; ++u)
         for (int w = 0; u + w <= 12; ++w) {
           const double s = u / 12.0, r = w / 12.0;
@@ -257,7 +258,8 @@ TEST(MeshInside, IsWhereTheSurfaceSurrounds) {
   EXPECT_LT(inside, 350);
 }
 
-// Two balls of triangles, deeper in each other than triangles are large: before, in none of these poses was a point.
+// Two balls of triangles, deeper in each other than triangles are large. Before, no point was found in any of these
+// poses.
 TEST(Meshes, DeepInEachOtherHaveThePointsOfTheirVertices) {
   Draw draw(9);
   MeshBody a(datasets::sphere_mesh(1.0, 8).value(), true);

@@ -108,7 +108,8 @@ TEST(OrientedLevels, NeverSeparatesBoxesThatMeetAndSeparatesThoseThatAreApart) {
     if (gap <= 0.0) {
       ASSERT_FALSE(found_apart) << "case " << k << ", overlap " << gap;
     }
-    // Axes of edges that are nearly parallel are short, so a gap that only they show may be missed: counted, not ruled.
+    // The cross products of nearly parallel edges are short, so a gap along such an axis alone may be missed: these are
+    // counted, not forbidden.
     if (gap > 4.0 * pose.slack_m) {
       ++apart;
       if (!found_apart) ++wrong_side;

@@ -1,5 +1,5 @@
-// The axis of two finely cut hulls that overlap is the narrowest there is, whatever was left out to find it: held
-// against the exact depth, which tries everything.
+// The axis found for two finely cut hulls that overlap is the narrowest there is, whatever axes the search left out. It
+// is compared with the exact depth, which tries every axis.
 #include "core/method/rigid/overlap_axis.hpp"
 
 #include <gtest/gtest.h>

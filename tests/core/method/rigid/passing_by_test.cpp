@@ -15,7 +15,7 @@ struct Passing {
   ContactPath stands;
   Manifold found;
 
-  // Its lower edge starts start_m above the upper one of the other cube, and ends so far below it.
+  // The lower edge of the falling cube starts start_m above the upper edge of the other cube, and ends end_m below it.
   Passing(float beside_m, float start_m, float end_m) {
     cube.kind = ContactKind::kBox;
     cube.half = {0.5F, 0.5F, 0.5F};
@@ -39,7 +39,7 @@ TEST(PassingBy, TheCornerIsNearest) {
   EXPECT_GT(p.found.normal.y, 0.5F);
 }
 
-// Along the plane between both faces free motion closes nothing.
+// Free motion is along the plane between the two side faces, and does not close the gap across it.
 TEST(PassingBy, APatchThatIsKeptTakesThePlaneOfTheFaces) {
   const Manifold kept = Passing(0.028F, 0.02F, 0.048F).let(kFalls_m);
   EXPECT_NEAR(kept.normal.x, -1.0F, 1e-6F);
@@ -55,7 +55,7 @@ TEST(PassingBy, WhatIsAsNearAsBodiesFallKeepsItsPlane) {
   EXPECT_EQ(p.let(0.04F).normal, p.found.normal);
 }
 
-// It would come down on the other one.
+// The falling cube would land on the other one.
 TEST(PassingBy, WhereNoPlaneLiesBetweenThePatchStays) {
   Passing p(-0.2F, 0.02F, 0.048F);
   const Manifold kept = p.let(kFalls_m);

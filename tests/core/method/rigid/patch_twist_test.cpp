@@ -41,7 +41,7 @@ class RandomPatches {
   std::mt19937 engine_;
 };
 
-// A's point less B's, from the bodies alone, along the normal and the tangents.
+// The velocity of A's point minus that of B's, from the bodies alone, along the normal and the tangents.
 Vec3 speed_of_point(const PatchConstraint& c, const PatchPoint& p, const SolverBody& a, const SolverBody& b) {
   const Vec3 of_a = a.v + cross(angular_velocity(a), arm_a<float>(c, p));
   const Vec3 of_b = b.v + cross(angular_velocity(b), arm_b<float>(c, p));
@@ -64,7 +64,8 @@ TEST(PatchTwist, APointIsAsFastAsItsBodiesMakeIt) {
   }
 }
 
-// What the columns say that an impulse does to every point is what it does to the bodies.
+// The change of every point's velocity, as the columns give it for an impulse, is the change that the bodies'
+// velocities give.
 TEST(PatchTwist, AnImpulseChangesPointsAsItChangesTheBodies) {
   RandomPatches random(2);
   for (int n = 0; n < 100; ++n) {
@@ -122,7 +123,7 @@ void expect_same_bits(Vec3 one, Vec3 other) {
   EXPECT_EQ(bits(one.z), bits(other.z));
 }
 
-// A GPU solves four points of every patch: those that it does not have are zeros, and change no bit.
+// A GPU solves four points for every patch: the missing points are zeros, and change no bit.
 TEST(PatchTwist, PointsOfZerosChangeNoBit) {
   RandomPatches random(3);
   SoftStep step = soft_step(1.0F / 240.0F, 6.0F, 1.0F);
@@ -130,7 +131,7 @@ TEST(PatchTwist, PointsOfZerosChangeNoBit) {
   for (int n = 0; n < 400; ++n) {
     SolverBody a = random.body();
     SolverBody b = n % 4 == 0 ? SolverBody{} : random.body();
-    // Bodies that hardly move, along an axis: zeros of either sign.
+    // Bodies at rest, or that move slowly along an axis: zeros of either sign.
     if (n % 3 == 0) a.v = b.v = {0.0F, -0.0F, n % 2 == 0 ? 0.0F : -1e-3F};
     if (n % 3 == 0) a.angular_momentum = b.angular_momentum = {-0.0F, 0.0F, -0.0F};
     PatchConstraint c = random.patch(a, b, 0.5F, 0.0F);

@@ -36,7 +36,7 @@ TEST(PushedMotion, AStaticBodyIsNotPushed) {
   EXPECT_EQ(push_by(body(0, {}, {}, 0.0F), body(1, {0, 1, 0}, {0, -0.5F, 0}), 0.3F), 0U);
 }
 
-// Of a row of balls the second hands on what it is about to be given.
+// In a row of balls, the second one passes on the push that it is about to receive.
 TEST(PushedMotion, APushIsHandedOn) {
   Pusher second = body(1, {1, 0, 0}, {});
   second.pushed = {0.4F, 0, 0};
@@ -46,7 +46,8 @@ TEST(PushedMotion, APushIsHandedOn) {
   EXPECT_EQ(pusher_of(push), 9U);
 }
 
-// But not to whom it comes from: that one still feels who comes, more weakly.
+// A push does not go back to the body that it comes from. That body still notices the other one's approach, more
+// weakly.
 TEST(PushedMotion, ItsOwnPushDoesNotComeBack) {
   Pusher below = body(1, {0, -1, 0}, {});
   below.pushed = {0, -0.4F, 0};
@@ -57,7 +58,8 @@ TEST(PushedMotion, ItsOwnPushDoesNotComeBack) {
   EXPECT_EQ(pusher_of(push_by(body(3, {}, {}), below, 0.0F)), 2U);
 }
 
-// Of two that touch the first is struck: what it is told counts for the second, where it is more than what it knew.
+// Of two touching bodies the first one is struck. Its expected push is passed on to the second, and replaces the push
+// it has where it is stronger.
 TEST(PushedMotion, WhatABodyIsToldIsPassedOn) {
   const Pusher first = body(1, {1, 0, 0}, {});
   const PushWord told = push_by(first, body(9, {0, 0, 0}, {0.8F, 0, 0}), 0.0F);
@@ -81,7 +83,7 @@ TEST(PushedMotion, TheStrongestPushIsTheLargestWord) {
   EXPECT_EQ(std::max(weak, strong), strong);
 }
 
-// Along the push a body may go all of it, against it nothing, across it half.
+// A body may move along the push by all of it, against the push not at all, and across it by half.
 TEST(PushedMotion, ReachesIntoTheBallWhoseDiameterThePushIs) {
   const Vec3 pushed{0, -0.4F, 0};
   EXPECT_FLOAT_EQ(pushed_reach_m(pushed, {0, -1, 0}), 0.4F);

@@ -1,4 +1,5 @@
-// What one direction tells of two boxes, against the exact arbiter on all ways between their ends, and against patches.
+// Answers about two boxes from one direction, against the exact arbiter on all their ways through the step, and against
+// patches.
 #include "core/method/rigid/quick_boxes.hpp"
 
 #include <gtest/gtest.h>
@@ -19,7 +20,7 @@ struct BoxesNear {
   float reach_m = 0.0F;
 };
 
-// Two boxes near each other, of which both move by up to half a meter; where they turn, by up to a tenth of a radian.
+// Two boxes near each other. Both move by up to half a meter; where they turn, by up to a tenth of a radian.
 BoxesNear any_meeting(Draw& draw, bool turns) {
   const auto any_box = [&] {
     return box({draw.between(0.2F, 1.0F), draw.between(0.2F, 1.0F), draw.between(0.2F, 1.0F)});
@@ -45,7 +46,8 @@ BoxesNear any_meeting(Draw& draw, bool turns) {
   return m;
 }
 
-// Whichever of both is ahead: the plane parts them at the corners of all pairs of shares, so between them too.
+// However far each body has come on its own way: the plane separates them where both shares are 0 or 1, so between them
+// too.
 TEST(QuickBoxes, WhatPassesIsApartOnAllWays) {
   Draw draw(1);
   int passing = 0;
@@ -66,7 +68,8 @@ TEST(QuickBoxes, WhatPassesIsApartOnAllWays) {
   EXPECT_GT(passing, 100);
 }
 
-// What is told without patches is what patches tell, and patches tell it of most others only because they are near.
+// A quick answer agrees with that of patches. The patches of most other pairs are kept only because the bodies are
+// near.
 TEST(QuickBoxes, OfWhatPassesNoPatchIsKept) {
   Draw draw(2);
   int passing = 0;
@@ -88,7 +91,7 @@ TEST(QuickBoxes, OfWhatPassesNoPatchIsKept) {
   EXPECT_GT(kept_pairs, 500);
 }
 
-// Closed form: cubes of a meter side by side along x, of which the right one moves.
+// Closed form: cubes of a meter side by side along x; the right one moves.
 TEST(QuickBoxes, TheirGapAlongADirectionIsThatOfTheirSides) {
   const Subject cube = box({0.5F, 0.5F, 0.5F});
   const ContactPose left{{3.0F, -2.0F, 7.0F}, {}};

@@ -1,4 +1,4 @@
-// Bounds of the distance of hulls are bounds, and what they tell of a pair is what its patches tell.
+// Bounds on the distance of hulls hold, and quick answers from them agree with the answers of patches.
 #include "core/method/rigid/quick_hulls.hpp"
 
 #include <gtest/gtest.h>
@@ -79,7 +79,7 @@ TEST(HullGap, EnclosesTheDistance) {
   EXPECT_GT(overlapping, 30);
 }
 
-// A search that stopped at a bound ends where one ends that never stopped.
+// A search that is stopped at a bound and continued later ends with the same result as one that was never stopped.
 TEST(HullGap, GoesOnFromABoundToTheSameBits) {
   Draw draw(31);
   int unfinished = 0;
@@ -129,7 +129,7 @@ bool is_same(const Manifold& a, const Manifold& b) {
   return true;
 }
 
-// Whoever hands in known gaps gets the same patches, bit by bit.
+// A caller that hands in known gaps gets the same patches, bit by bit.
 TEST(QuickHulls, KnownGapsChangeNoPatch) {
   Draw draw(17);
   int patches = 0;
@@ -162,7 +162,7 @@ TEST(QuickHulls, KnownGapsChangeNoPatch) {
   EXPECT_GT(added, 10);
 }
 
-// A lane that leaves hard pairs makes the same patches of all others, and leaves few.
+// A lane that leaves hard pairs to others makes the same patches for all remaining pairs, and leaves few.
 TEST(QuickHulls, ALaneOfHullsLeavesFewPairs) {
   Draw draw(23);
   int made = 0;
@@ -187,7 +187,7 @@ TEST(QuickHulls, ALaneOfHullsLeavesFewPairs) {
   EXPECT_LT(left, 30);
 }
 
-// As is_still_apart says it, by patches alone.
+// The same answer as is_still_apart, from patches alone.
 bool stays_apart(const Manifold& start, const Subject& a, const ContactPose& at_a, const Subject& b,
                  const ContactPose& at_b, float reach_m) {
   Manifold end[kPatchesOfPair];
@@ -238,7 +238,7 @@ TEST(QuickHulls, TellWhatPatchesTell) {
       EXPECT_TRUE(passes) << trial;
     }
   }
-  // Most are told, or it would save nothing.
+  // Most pairs get a quick answer; otherwise it would save nothing.
   EXPECT_GT(told, passing * 2 / 3);
   EXPECT_GT(answers[static_cast<int>(QuickAnswer::kYes)], 50);
   EXPECT_GT(answers[static_cast<int>(QuickAnswer::kNo)], 50);

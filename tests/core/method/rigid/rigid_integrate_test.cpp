@@ -83,16 +83,16 @@ double worst_deg(double h, int steps, int substeps) {
   return worst;
 }
 
-// RIGID 8.1 asks for 1 degree. Half an ulp a step that is lost for good makes 5 degrees of it, so the kept remainder is
-// what this holds.
+// RIGID 8.1 asks for 1 degree. If half an ulp a step were lost for good, the error would be 5 degrees of it; this test
+// shows that the remainder is kept.
 TEST(RigidIntegrate, AFreeBrickKeepsItsAttitudeWithinATenthOfADegreeAndALittle) {
   EXPECT_LT(worst_deg(1e-3, 10000, 1), 0.2);
   EXPECT_LT(worst_deg(1e-3, 10000, 4), 0.2);
 }
 
 TEST(RigidIntegrate, IsOfFourthOrderInTheStep) {
-  // A second, each step in one part: the errors are far above rounding, and h/2 divides them by 2^4, less what rounding
-  // leaves of that.
+  // A second of motion, each step in one part: the errors are far above rounding, and with half the step they are 2^4
+  // times smaller, apart from rounding.
   const double coarse = worst_deg(0.025, 40, 1);
   const double fine = worst_deg(0.0125, 80, 1);
   EXPECT_GT(coarse / fine, 12.0);
@@ -116,7 +116,7 @@ TEST(RigidIntegrate, ASpinAboutOneAxisTurnsByHTimesW) {
     RigidState s;
     s.angular_momentum = {0.0F, 0.0F, w / 2.5F};
     s = advance(s, ball, 0.02F);
-    // The bound of a ball's speed is sqrt(3) times it, and a part turns by 1 rad of that at most.
+    // The bound on a ball's speed is sqrt(3) times the speed, and a part turns by at most 1 rad of that bound.
     const double parts = std::floor(std::sqrt(3.0) * w * 0.02) + 1.0;
     const double turn = 0.02 * w;
     EXPECT_NEAR(2.0 * std::atan2(s.q.z, s.q.w), turn, parts * std::pow(turn / parts / 2, 5) / 60 + 8 * 0x1p-24 * turn)
@@ -124,7 +124,7 @@ TEST(RigidIntegrate, ASpinAboutOneAxisTurnsByHTimesW) {
   }
 }
 
-// 2 m x 2 cm x 2 cm, end over end: L / I about the long axis is 5,000 times as fast, and no part of the motion.
+// 2 m x 2 cm x 2 cm, end over end: L / I about the long axis would be 5,000 times as fast, and there is no such motion.
 TEST(RigidIntegrate, ANeedleTurnsByHTimesW) {
   RigidMass needle;
   needle.inverse_mass = 1.0F;
@@ -165,7 +165,7 @@ TEST(RigidIntegrate, AStaticBodyStays) {
   EXPECT_EQ(accelerated(s, still, {0.0F, -10.0F, 0.0F}, {}, 0.1F), s);
 }
 
-// Axes of a body, and normals in them, are off by up to four times as much as the orientation's length.
+// Axes of a body, and normals in them, have up to four times the length error of the orientation.
 TEST(RigidIntegrate, AnOrientationStaysOfLengthOneToThreeQuartersOfAnUlp) {
   std::mt19937 random(7);
   std::uniform_real_distribution<float> number(-1.0F, 1.0F);

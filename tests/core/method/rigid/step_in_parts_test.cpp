@@ -17,7 +17,7 @@ TEST(StepInParts, MassesOfWhatMovesAreCompared) {
   EXPECT_EQ(plan_of_step(settings, 64.0F, false, 0.0F, false).parts, 1U);
   EXPECT_EQ(plan_of_step(settings, 65.0F, false, 0.0F, false).parts, 4U);
   EXPECT_EQ(plan_of_step(settings, 65.0F, true, 9.0F, false).parts, 1U);
-  // Its cost is to be known ahead.
+  // Its cost must be known in advance.
   EXPECT_EQ(most_parts(soft_step_settings(), 1000.0F, true), 1U);
   EXPECT_EQ(most_parts(soft_step_settings(), 1.0F, true), 1U);
 }
@@ -31,17 +31,17 @@ TEST(StepInParts, NoBodyMovesFarForItsThicknessInOneOfThem) {
   EXPECT_EQ(parts(0.51F), 4U);
   EXPECT_EQ(parts(1e9F), 4U);
   EXPECT_EQ(plan_of_step(settings, 1.0F, true, 9.0F, false).parts, 1U);
-  // They share the substeps of the step.
+  // The parts share the substeps of the step.
   for (const float stride : {0.1F, 0.3F, 2.0F}) {
     const StepPlan plan = plan_of_step(settings, 1.0F, false, stride, false);
     EXPECT_EQ(plan.parts * solve_numbers(settings, SolveKind::kEven, plan).substeps, settings.even.substeps);
   }
-  // Where masses are far apart each part has all of them.
+  // Where masses differ much, each part has all substeps.
   EXPECT_EQ(solve_numbers(settings, SolveKind::kEven, plan_of_step(settings, 65.0F, false, 0.0F, false)).substeps,
             settings.even.substeps);
 }
 
-// Where ways are followed there are more of them.
+// Where the ways of bodies are followed (swept), a step has more parts.
 TEST(StepInParts, NoFollowedBodyMovesFarInOneOfThem) {
   const SoftSettings settings;
   const auto plan = [&](float ratio, bool is_calm, float stride) {
@@ -52,7 +52,7 @@ TEST(StepInParts, NoFollowedBodyMovesFarInOneOfThem) {
   EXPECT_EQ(plan(1.0F, false, 1e9F).parts, 16U);
   EXPECT_EQ(plan(1.0F, true, 1e9F).parts, 1U);
   EXPECT_EQ(most_parts(settings, 1.0F, true), 16U);
-  // Masses far apart have four in any case, with four substeps in each.
+  // Where masses differ much, there are four parts in any case, with four substeps in each.
   for (const float stride : {0.0F, 1.0F, 1.1F, 9.0F}) {
     const StepPlan uneven = plan(65.0F, false, stride);
     EXPECT_EQ(uneven.parts, stride > 2.0F ? 16U : (stride > 1.0F ? 8U : 4U));
@@ -63,7 +63,7 @@ TEST(StepInParts, NoFollowedBodyMovesFarInOneOfThem) {
   EXPECT_EQ(most_of_step(settings, 1.0F, true, false).substeps, 4U);
 }
 
-// One body that is a meter further, and a quarter turn about y on, in the second part.
+// One body, which in the second part is a meter further along x and a quarter turn about y further.
 FrameRecord part_of(bool is_first) {
   FrameRecord frame;
   frame.digest = is_first ? 1 : 2;
@@ -119,8 +119,8 @@ TEST(StepInParts, PosesBetweenPartsAreTold) {
   EXPECT_EQ(last.part_poses[1].orientation, middle.orientation[0]);
 }
 
-// A body at rest is struck in the second part by one that has come 2 m sideways since: what it was given acts where it
-// was struck.
+// A body at rest is struck in the second part by one that has moved 2 m sideways by then: the impulse is recorded at
+// the place where the body at rest was struck.
 TEST(StepInParts, APointIsToldWhereWhatMovedLessWas) {
   const auto of = [](bool is_first) {
     FrameRecord frame;

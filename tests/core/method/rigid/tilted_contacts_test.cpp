@@ -29,7 +29,7 @@ double off_surface(const Subject& s, Vec3 x) {
   return std::abs(exact::signed_distance(point, s.placed()).distance_m);
 }
 
-// The height of the surface over a line, by all planes: the least height of those that look up.
+// The height of the surface along a line, from all planes: that of the lowest plane that faces up.
 double height_by_planes(const Subject& s, Vec3 x, Vec3 up, double& below) {
   const PlacedShape placed = placed_shape(s.shape, s.pose, s.pose.x);
   double entry = -1e30;
@@ -59,7 +59,7 @@ TEST(TiltedContacts, HeightsAreThoseOfTheSurface) {
       const Vec3 x = draw.in_cube(0.6F);
       double below = 0.0;
       const double truth = height_by_planes(s, x, up, below);
-      // A line that passes the rim nearer than this may be on either side of it.
+      // A line that passes the rim at less than this distance may count as inside or outside.
       if (std::abs(truth - below) < 1e-4) continue;
       float height = 0.0F;
       const int face = tilt_detail::face_below(hull, hull.support_face(up), x, up, 1e-6F, 1e3F);
@@ -69,7 +69,7 @@ TEST(TiltedContacts, HeightsAreThoseOfTheSurface) {
       } else if (height_above(hull, hull.support_face(up), x, up, 1e-6F, 1e3F, height)) {
         ++over;
         EXPECT_NEAR(height, truth, 1e-5) << trial << " line " << k;
-        // Who asks for low points alone gets these with the same bits.
+        // A caller that asks for low points alone gets the same points with the same bits.
         const float most_m = draw.between(-0.3F, 0.3F);
         float low = 0.0F;
         const bool is_told = height_above(hull, hull.support_face(up), x, up, 1e-6F, most_m, low);
@@ -86,7 +86,8 @@ TEST(TiltedContacts, HeightsAreThoseOfTheSurface) {
   EXPECT_GT(left_out, 50);
 }
 
-// A flat side of many corners is stored as faces of one plane: a line beyond it is followed over all of them.
+// A flat side with many corners is stored as several faces of one plane: for a line beyond it, the search has to cross
+// all of them.
 TEST(TiltedContacts, FlatSidesOfManyCornersAreCrossed) {
   std::vector<Vec3> points;
   for (int k = 0; k < 60; ++k) {
@@ -137,7 +138,7 @@ TEST(TiltedContacts, LieOnBothSurfacesAndApart) {
       EXPECT_LT(off_surface(b, a.pose.x + (p.point - half)), 1e-5) << trial << " point " << k;
       for (int i = 0; i < k; ++i) farthest = std::max(farthest, length(p.point - m[0].points[i].point));
     }
-    // Twice as far as the faces of a pebble are large; before, points were as far apart as one of them.
+    // Twice the size of a pebble's faces; before, points were only as far apart as one face is large.
     if (farthest > 0.2F) ++spread;
   }
   EXPECT_GT(spread, kTrials * 3 / 4);

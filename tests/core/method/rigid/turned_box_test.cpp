@@ -120,7 +120,7 @@ TEST(TurnedBox, ContainsTheShapeAndIsTight) {
         const double low = x[axis] + from[axis] - exact_reach(c.shape, c.vertices, q, axis, -1.0);
         ASSERT_GE(box.max[axis], high);
         ASSERT_LE(box.min[axis], low);
-        // At most the padding twice: as much as it is, and what it covers.
+        // At most twice the padding: once for the padding itself, and once for the rounding that it covers.
         const double waste =
             2.0 * 0x1p-24 *
             (kBoxRoundingsOfReach * (8.0 + std::sqrt(3.0)) + kBoxRoundingsOfPosition * (std::abs(x[axis]) + 10.0));
@@ -131,8 +131,8 @@ TEST(TurnedBox, ContainsTheShapeAndIsTight) {
   }
 }
 
-// A prism whose long edges have corners between their ends. Turned about its axis, no such edge leads down along an
-// axis of the world: a search that comes to a corner in the middle of one would end there.
+// A prism whose long edges have corners between their ends. When it is turned about its axis, no such edge leads
+// downhill along an axis of the world: a search that reaches a corner in the middle of an edge would end there.
 TEST(TurnedBox, ContainsAPrismWithCornersAlongItsEdges) {
   constexpr int kSides = 24;
   constexpr int kRings = 5;
@@ -148,7 +148,7 @@ TEST(TurnedBox, ContainsAPrismWithCornersAlongItsEdges) {
   const double waste = 4.0 * 0x1p-24 * kBoxRoundingsOfReach * 1.2;
   for (int k = 0; k < 2000; ++k) {
     const float half = 0.5F * 0.00314F * static_cast<float>(k);
-    // About its axis, and about that and one across.
+    // About its own axis, and about that axis and one across it.
     for (const float across : {0.0F, 1e-7F, 0.1F}) {
       Quat q{std::cos(half), across, 0.0F, std::sin(half)};
       q = (1.0F / std::sqrt(dot(q, q))) * q;
@@ -189,7 +189,7 @@ TEST(MotionReach, IsTheWayOfTheCenterAndOfTheFarthestPoint) {
   s.v = {3.0F, 0.0F, 4.0F};
   s.angular_momentum = {0.0F, 0.5F, 0.0F};  // 1 rad/s
   const Vec3 g{0.0F, -10.0F, 0.0F};
-  // 0.1 s: 5 m/s and 1 m/s of gravity on the way, and 0.1 rad of an arm of 2 m.
+  // In 0.1 s: 5 m/s and the 1 m/s that gravity adds, and a turn of 0.1 rad at an arm of 2 m.
   EXPECT_NEAR(free_motion(s, mass, {2.0F, 0.5F}, g, {}, 0.1F).reach_m(), 0.1F * (5.0F + 1.0F) + 0.2F, 1e-6F);
   // A ball about its center of mass adds nothing by turning, however fast.
   s.angular_momentum = {0.0F, 500.0F, 0.0F};
@@ -198,8 +198,9 @@ TEST(MotionReach, IsTheWayOfTheCenterAndOfTheFarthestPoint) {
   EXPECT_EQ(free_motion(s, RigidMass{}, {2.0F, 0.5F}, g, {}, 0.1F).reach_m(), 0.0F);
 }
 
-// A wrench of 2 N on 2 kg upward is 1 m/s^2: it falls with 9. Of two steps of 0.1 s, the second of which is made with
-// what the first one fell: 0.09 m, and 0.18 m more. To every side the box covers what is 0.09 m away.
+// A wrench of 2 N upward on 2 kg is 1 m/s^2, so the body falls with 9 m/s^2. It falls 0.09 m in the first of two steps
+// of 0.1 s, and 0.18 m more in the second, which starts with the speed of the first. To every other side the box is
+// larger by 0.09 m.
 TEST(MotionReach, ASweptBoxGoesFromTheStartToWhereItDriftsAndFalls) {
   RigidMass mass;
   mass.inverse_mass = 0.5F;

@@ -53,7 +53,7 @@ TEST(RigidScenes, AnotherStepKeepsTheEndTime) {
   EXPECT_FALSE(datasets::make_scene("rigid:bounce[dt_s=0]").ok());
 }
 
-// Scenes hold directions from a series of our own: it has to be that of the library, to its last digits.
+// Scenes compute directions by a series of our own: cosines and sines must agree with the library's to the last digits.
 TEST(Circle, CosinesAndSinesAreThose) {
   for (int k = -100; k <= 100; ++k) {
     const double angle = 3.14 * k / 100.0;

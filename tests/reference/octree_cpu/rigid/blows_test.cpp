@@ -1,4 +1,4 @@
-// What a blow, or an impulse that was taken back, leaves behind.
+// What remains after a blow, and after an impulse that was taken back.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -25,7 +25,7 @@ PipelineRig rig_of(const char* name) {
   return rig;
 }
 
-// Nobody told of an impulse has a velocity, to the last bit: there is no gravity.
+// A body that received no impulse has no velocity, to the last bit: there is no gravity.
 TEST(Blows, WhatWasGivenAndTakenBackLeavesNothing) {
   PipelineRig rig = rig_of("rigid:bullet-through-cards");
   rig.options.swept = core::Swept::kNobody;
@@ -46,8 +46,8 @@ TEST(Blows, WhatWasGivenAndTakenBackLeavesNothing) {
   EXPECT_GT(untouched, 0);
 }
 
-// A row of cubes of 25 cm, 1 kg, on the floor, with these gaps, whose first one is struck by 4 kg at 20 m/s. Returns
-// how deep a point is afterwards, m.
+// A row of cubes of 25 cm and 1 kg on the floor, with these gaps; a cube of 4 kg strikes the first one at 20 m/s.
+// Returns the depth of the deepest point afterwards, m.
 float deepest_of_row(const std::vector<float>& gaps_m) {
   PipelineRig rig;
   const std::uint32_t cube = rig.box(0.25, 0.25, 0.25);
@@ -61,17 +61,18 @@ float deepest_of_row(const std::vector<float>& gaps_m) {
   return deepest_m;
 }
 
-// Before, the last one of a row was entered by 17 cm: nobody is told in time of what comes through five others.
+// Before, the last two cubes of a row ended 17 cm deep in each other: the last one could not learn in time of a blow
+// that comes through five others.
 TEST(Blows, PassThroughARowThatTouches) {
   EXPECT_LT(deepest_of_row({2e-4F, 2e-4F, 2e-4F, 2e-4F, 2e-4F}), 0.005F);
 }
 
-// Before, by 13 cm.
+// Before, cubes ended 13 cm deep.
 TEST(Blows, PassThroughARowWithGaps) {
   EXPECT_LT(deepest_of_row({0.03F, 0.03F, 0.03F, 0.03F, 0.03F}), 0.005F);
 }
 
-// Before, by 2.4 cm: the second one was told in the step in which it was struck.
+// Before, cubes ended 2.4 cm deep: the second cube learned of the blow only in the step in which it was struck.
 TEST(Blows, ArePassedOnToWhatIsBeyondTheNextOne) {
   EXPECT_LT(deepest_of_row({2e-4F, 0.05F}), 0.005F);
 }
@@ -89,12 +90,12 @@ TEST(Blows, AreSharedByTheEndsOfAnEdge) {
   EXPECT_LT(frame.angular_velocity[0].z, 12.0F);
 }
 
-// A cube falls past one that another one is about to drive toward it, but not so far. Before, it was stopped by the
-// plane through the corner.
+// One cube is about to drive a second one toward a third that falls past it, but not far enough to meet it. Before, the
+// plane through the corner stopped the falling cube.
 TEST(Blows, DoNotStopWhoFallsPast) {
   PipelineRig rig;
   const std::uint32_t cube = rig.box(1.0, 1.0, 1.0);
-  constexpr float kFalls_m = 0.0694F;  // in the first step, in which nobody is told of anything yet
+  constexpr float kFalls_m = 0.0694F;  // in the first step, in which no body knows of the push yet
   rig.add(cube, {0.0F, 1.52F + kFalls_m, 0.0F}, 1.0F, {0.0F, -4.0F, 0.0F});
   rig.add(cube, {1.028F, 0.5F, 0.0F}, 1.0F);
   rig.add(cube, {2.15F, 0.5F, 0.0F}, 1.0F, {-4.0F, 0.0F, 0.0F});

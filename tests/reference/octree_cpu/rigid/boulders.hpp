@@ -39,7 +39,7 @@ inline core::Scene five_boulders() {
   return std::move(scene).value();
 }
 
-// On top of each other, in a shaft hardly wider than they are.
+// Boulders on top of each other, in a shaft hardly wider than they are.
 inline core::Scene five_boulders_in_a_shaft() {
   core::Scene scene = five_boulders();
   scene.domain = {{-0.6F, 0.0F, -0.6F}, {0.6F, 8.0F, 0.6F}};

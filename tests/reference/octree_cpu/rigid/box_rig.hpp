@@ -1,4 +1,4 @@
-// Boxes on a plane and on each other, with patches of their corners: what tests of contact solvers move.
+// Boxes on a plane and on each other, with patches at their corners: the rig that tests of contact solvers step.
 #pragma once
 
 #include <algorithm>
@@ -41,7 +41,7 @@ struct BoxRig {
     return static_cast<std::uint32_t>(states.size() - 1);
   }
 
-  // The four corners of box a that are lowest over a plane, where one is nearer than reach_m.
+  // Adds a patch of the four corners of box a that are lowest over a plane, where one of them is nearer than reach_m.
   void meet(std::uint32_t a, std::uint32_t b, core::Vec3 normal, core::Vec3 on_plane, float reach_m) {
     struct Corner {
       float gap;
@@ -70,7 +70,7 @@ struct BoxRig {
   }
 
   void meet_floor(std::uint32_t a, float reach_m) { meet(a, core::kFirstFace + 2, {0.0F, 1.0F, 0.0F}, {}, reach_m); }
-  // On the upper face of box b.
+  // The same, on the upper face of box b.
   void meet_top(std::uint32_t a, std::uint32_t b, float reach_m) {
     const core::Vec3 up = core::turned_axes(states[b].q).y;
     meet(a, b, up, states[b].x + half_sides_m[b].y * up, reach_m);

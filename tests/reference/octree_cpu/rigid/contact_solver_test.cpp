@@ -61,7 +61,7 @@ TEST_P(ContactSolvers, FreeBodyFallsAndKeepsItsAngularMomentumBitForBit) {
   for (int k = 0; k < 120; ++k) rig.step(*solver);
   EXPECT_EQ(rig.states[0].angular_momentum, spin);
   EXPECT_NEAR(rig.states[0].v.y, -kG * 2.0, 2.0 * kG * 120 * 16 * 0x1p-24);  // each substep rounds once
-  // Between what the speeds at the start and at the end of each step would give.
+  // The drop lies between those that the speeds at the start and at the end of each step would give.
   EXPECT_NEAR(rig.states[0].x.y, 100.0 - 0.5 * kG * 4.0, 0.5 * kG * 2.0 / 60.0);
 }
 
@@ -76,7 +76,7 @@ TEST_P(ContactSolvers, WrenchActsInItsAxes) {
   EXPECT_NEAR(rig.states[0].angular_momentum.z, 0.5, 0.5 * 60 * 16 * 0x1p-24);
 }
 
-// The floor bears the weight, and each interface what is above it.
+// The floor bears the whole weight, and each interface the weight above it.
 TEST_P(ContactSolvers, PillarBearsItsWeight) {
   BoxRig rig = pillar(5, 1.0F);
   const auto solver = this->solver();
@@ -106,7 +106,7 @@ TEST_P(ContactSolvers, TwentyCubesStandForAMinuteWithoutCreep) {
     EXPECT_LT(core::length(rig.states[i].x - settled[i].x), 1e-5 * 58.0) << "cube " << i;
 }
 
-// Along conjugate directions alone: a soft step's light cube yields.
+// This needs sweeps along conjugate directions: in a soft step the light cube yields.
 TEST(ConjugateSolver, HeavyCubeStandsOnALightOne) {
   BoxRig rig = pillar(2, 1000.0F);
   const auto solver = make_contact_solver({});
@@ -118,7 +118,7 @@ TEST(ConjugateSolver, HeavyCubeStandsOnALightOne) {
   }
 }
 
-// Boxes dropped askew: what the points report is what the bodies were given.
+// Boxes dropped askew: the impulses of the points are what the bodies received.
 TEST_P(ContactSolvers, ImpulsesExplainMomentumAndAngularMomentum) {
   BoxRig rig;
   for (int k = 0; k < 6; ++k) {
@@ -151,7 +151,7 @@ TEST_P(ContactSolvers, ImpulsesExplainMomentumAndAngularMomentum) {
     for (std::size_t i = 0; i < rig.states.size(); ++i) {
       const float m = 3.0F;
       const Vec3 gained = m * (rig.states[i].v - before[i].v) - (m * rig.dt_s) * rig.gravity_m_s2;
-      // Additions of a step: gravity, and four points in three sweeps of each substep.
+      // Additions in a step: gravity, and four points in three sweeps of each substep.
       const float additions = 16.0F * (1.0F + 3.0F * 4.0F) * 0x1p-24F;
       const float scale = m * (core::length(rig.states[i].v) + core::length(before[i].v)) + size[i] + 0.5F;
       EXPECT_LE(core::length(gained - momentum[i]), additions * scale) << "body " << i << " step " << step;
@@ -180,7 +180,7 @@ TEST_P(ContactSolvers, SlidesEquallyFarInEveryHeading) {
   }
 }
 
-// A plane that falls with the tangent 1/2, as gravity that leans: it slides at g (sin - mu cos), or stays.
+// A plane that falls with the tangent 1/2, made by tilting gravity: the box slides at g (sin - mu cos), or stays.
 TEST_P(ContactSolvers, InclineIsDecidedWithinOnePercent) {
   const double cosine = 1.0 / std::sqrt(1.25);
   for (const double share : {1.0 / 1.01, 1.01}) {
@@ -200,13 +200,14 @@ TEST_P(ContactSolvers, InclineIsDecidedWithinOnePercent) {
       EXPECT_NEAR(rig.states[0].x.x, way, 0.02 * way);  // order 1: two steps of 480, and rounding
       continue;
     }
-    // It moves by no more than the slop while it settles, and then stays: rounding of a place below 1 m.
+    // The box moves by no more than the slop while it settles, and then stays, but for the rounding of a place below 1
+    // m.
     EXPECT_LT(std::abs(rig.states[0].x.x), 0x1p-16 * 0.72 * 16.0);
     EXPECT_LT(core::length(rig.states[0].x - settled), 0x1p-20);
   }
 }
 
-// It comes with sqrt(2 g h) and leaves with the share e of that.
+// The box arrives with the speed sqrt(2 g h) and leaves with the share e of it.
 TEST_P(ContactSolvers, BouncesBackWithTheShareOfRestitution) {
   for (const float e : {0.5F, 0.8F, 1.0F}) {
     BoxRig rig;
@@ -222,9 +223,10 @@ TEST_P(ContactSolvers, BouncesBackWithTheShareOfRestitution) {
   }
 }
 
-// Each of a pillar's patches bounces once a step at most, where it is first met. At rest nobody looks for what bounces.
+// Each of a pillar's patches bounces at most once a step, when it first meets its partner. At rest there are no sweeps
+// for bounces.
 TEST_P(ContactSolvers, BouncesWhereItIsFirstMet) {
-  constexpr std::uint64_t kMostSweeps = 5 * (32 + 8);  // to stop what came fast, and to give its share back
+  constexpr std::uint64_t kMostSweeps = 5 * (32 + 8);  // to stop what approached fast, and to give its share back
   BoxRig rig = pillar(5, 1.0F);
   for (core::Material& material : rig.materials) material.restitution = 0.5F;
   rig.face_material.restitution = 0.5F;
@@ -271,9 +273,9 @@ Landing column_that_lands(const core::SoftSettings& settings) {
   return landing;
 }
 
-// What stops the lowest of many cubes has to reach the uppermost. Sweeps that followed no direction left the cubes 1.3
-// mm deep in each other. Where pushes are kept, sweeps relax them beside what bounces: no more of them than it takes to
-// find what is left of a push that is taken back.
+// The impulse that stops the lowest of many cubes has to reach the uppermost. Sweeps without conjugate directions left
+// the cubes 1.3 mm deep in each other. Where pushes are kept, sweeps relax them together with the bounces; that takes
+// fewer sweeps than taking pushes back does.
 TEST(ConjugateSolver, AColumnThatLandsIsStopped) {
   const Landing landing = column_that_lands({});
   EXPECT_LT(landing.deepest_m, 1e-3);

@@ -27,8 +27,8 @@ float upright(core::Quat q) {
   return core::rotate(q, {0.0F, 1.0F, 0.0F}).y;
 }
 
-// Each comes to lie on the next one's foot: a domino of 1 m by 0.2 m in steps of 0.5 m leans by acos(0.2 / 0.5), 66
-// degrees, and the last lies flat.
+// Each comes to lie on the foot of the next one: dominoes of 1 m by 0.2 m at distances of 0.5 m lean by acos(0.2 /
+// 0.5), 66 degrees, and the last one lies flat.
 TEST(Dominoes, AllLieOnceTheFirstIsTipped) {
   const auto frames = row_of_dominoes("domino:domino:20[rigid=1,gap=0.3,speed_m_s=0,topple_m_s=2,restitution=0]", 300);
   for (const core::Quat q : frames.front().orientation) EXPECT_GT(upright(q), 0.99F);
@@ -38,9 +38,9 @@ TEST(Dominoes, AllLieOnceTheFirstIsTipped) {
 }
 
 // A domino of height h and thickness b tips once its center, h / 2 high, has been lifted over its edge, to half of the
-// diagonal: that takes g (sqrt(h^2 + b^2) - h) / 2 for each kilogram, 0.097 J of one of 1 m by 0.2 m. A first one that
-// is pushed at 0.4 m/s has 0.08 J, and no contact brings any. So none ever leans as far as it balances, and where
-// friction has taken that energy all stand.
+// diagonal. That takes g (sqrt(h^2 + b^2) - h) / 2 for each kilogram: 0.097 J for one of 1 m by 0.2 m. The first one,
+// pushed at 0.4 m/s, has 0.08 J, and no contact adds energy. So no domino leans beyond its point of balance, and once
+// friction has taken that energy all of them stand.
 TEST(Dominoes, StandWhereTheFirstHasTooLittleEnergyToTipOne) {
   constexpr double kHeightM = 1.0;
   constexpr double kThicknessM = 0.2;
@@ -62,10 +62,10 @@ TEST(Dominoes, StandWhereTheFirstHasTooLittleEnergyToTipOne) {
     }
 }
 
-// At 5 m/s the first one has 129 times that energy, and how many lean on the next one in the end is no known outcome:
-// with speeds that differ by 1 % all stand, or a row of them leans by 42 degrees, in steps of 1/60 s as in those of
-// 1 ms. In steps of 1 ms they lean with plain-rigid in float64, with ODE and with MuJoCo, too. Whatever they do, none
-// passes the next one, whose thickness parts their centers where both stand, and more where they lean.
+// At 5 m/s the first one has 129 times that energy, and it is not known how many lean on the next one in the end: with
+// speeds that differ by 1 % all stand, or a row of them leans by 42 degrees, in steps of 1/60 s as in those of 1 ms. In
+// steps of 1 ms some lean with plain-rigid in float64, with ODE and with MuJoCo, too. In any outcome, none passes the
+// next one: where both stand, their centers are a thickness apart, and more where they lean.
 TEST(Dominoes, KeepTheirOrderWhereTheFirstIsPushedThroughItsCenter) {
   for (const char* speed : {"4.95", "4.98", "5", "5.02", "5.05"}) {
     const auto frames = row_of_dominoes(std::string("domino:domino:20[rigid=1,speed_m_s=") + speed + "]", 120);

@@ -1,4 +1,5 @@
-// The memory of impulses: found again by bodies, those of other pairs and of the step before the last are not.
+// The memory of impulses: impulses are found again by their bodies; those of other pairs and of the step before the
+// last are not.
 #include "reference/octree_cpu/rigid/impulse_memory.hpp"
 
 #include <gtest/gtest.h>

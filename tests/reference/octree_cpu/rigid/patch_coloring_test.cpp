@@ -1,4 +1,4 @@
-// The coloring of patches: those of one color share no moved body, and it is a function of the list.
+// The coloring of patches: patches of one color share no moved body, and the coloring is a function of the list.
 #include "reference/octree_cpu/rigid/patch_coloring.hpp"
 
 #include <gtest/gtest.h>
@@ -55,7 +55,7 @@ TEST(PatchColoring, RandomPatchesShareNoMovedBody) {
   PatchColoring coloring;
   coloring.color(patches, masses);
   expect_proper(coloring, patches, masses);
-  // A static body joins none.
+  // A static body connects no two patches.
   EXPECT_LT(coloring.color_count(), 40U);
 }
 

@@ -1,4 +1,5 @@
-// Patches side by side have the bits of patches one by one, with every instruction set that the machine has.
+// Patches solved side by side give the bits of patches solved one by one, with every instruction set that the machine
+// has.
 #include "reference/octree_cpu/rigid/patch_kernels.hpp"
 
 #include <gtest/gtest.h>
@@ -24,7 +25,7 @@ namespace {
 using core::PatchConstraint;
 using core::SolverBody;
 
-constexpr std::uint32_t kStill = 2 * kTileLanes;  // of the bodies, the last one
+constexpr std::uint32_t kStill = 2 * kTileLanes;  // the last of the bodies stands still
 
 class Random {
  public:
@@ -130,8 +131,8 @@ struct OneByOne {
     });
   }
 
-  // Relaxes all, then sweeps over the patches of stirred bodies, each with its share of the last direction. Returns how
-  // many patches the last one left alone.
+  // Relaxes all patches, then sweeps over those of stirred bodies, each sweep with its share of the last direction.
+  // Returns how many patches the last sweep left alone.
   std::size_t stir(const core::SoftStep& step, std::span<const float> shares, float done_m_s,
                    std::vector<std::uint32_t>& stirred) {
     ways.assign(patches.size(), {});
@@ -183,7 +184,7 @@ struct OneByOne {
         core::note_impulses(c, ways[k]);
         largest = std::max(largest, core::solve_patch(c, core::goals_of(c, a, b, step), a, b, step));
         changes[k] = core::squared_change(c, ways[k]);
-        if (n == shares.size()) return;  // the last word is a sweep's
+        if (n == shares.size()) return;  // a sweep comes last
         core::push_along(c, ways[k], a, b, shares[n]);
         core::follow_impulses(c, ways[k], shares[n]);
       });

@@ -1,4 +1,4 @@
-// What pushes overlaps apart is not kept as speed: core/method/rigid/pushed_apart.hpp.
+// The velocity that pushes overlapping bodies apart is not kept: core/method/rigid/pushed_apart.hpp.
 #include "core/method/rigid/pushed_apart.hpp"
 
 #include <gtest/gtest.h>
@@ -15,7 +15,7 @@ namespace {
 constexpr float kSide_m = 0.5F;
 constexpr float kDeep_m = 0.04F;
 
-// Ten cubes of 1 kg at rest, each so deep in the next, along x or upward.
+// Ten cubes of 1 kg at rest, each overlapping the next by kDeep_m, along x or upward.
 PipelineRig overlapping_row(core::Vec3 along, core::Vec3 gravity_m_s2) {
   PipelineRig rig;
   rig.scene.gravity_m_s2 = gravity_m_s2;
@@ -41,7 +41,7 @@ double kinetic_j(const core::FrameRecord& frame) {
   return sum;
 }
 
-// The energy of the row was 8.1 J after the first step.
+// Before, the energy of the row was 8.1 J after the first step.
 TEST(PushedApart, BodiesAtRestPartAndRestAgain) {
   const auto frames = overlapping_row({1, 0, 0}, {0, 0, 0}).run(60);
   EXPECT_GT(deepest_m(frames.front()), 0.03);
@@ -59,7 +59,8 @@ double highest_of_tenth_m(const std::vector<core::FrameRecord>& frames) {
   return highest_m;
 }
 
-// A column rises out of itself and stands: no faster than 1 % of what 4 cm of a fall give.
+// A column of overlapping cubes rises until they part, and then stands: no faster than 1 % of what a fall of 4 cm
+// gives.
 TEST(PushedApart, AColumnRisesWithoutJumping) {
   const auto frames = overlapping_row({0, 1, 0}, {0, -9.81F, 0}).run(120);
   EXPECT_GT(deepest_m(frames.front()), 0.03);
@@ -75,7 +76,7 @@ std::vector<core::FrameRecord> column_beside_a_fall(const core::SoftSettings& se
   return rig.run(60);
 }
 
-// Sweeps go on from the pushes, although nothing bounces. Without them they stay as speed.
+// Sweeps continue after the pushes although nothing bounces. Without these sweeps the pushes would stay as speed.
 TEST(PushedApart, AColumnRisesWithoutJumpingWhileSomethingFalls) {
   const auto frames = column_beside_a_fall({});
   EXPECT_LT(deepest_m(frames.back()), 1e-3);

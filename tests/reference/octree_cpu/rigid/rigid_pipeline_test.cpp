@@ -72,7 +72,7 @@ TEST(RigidPipeline, HasTheSameBitsOnAnyNumberOfThreads) {
   for (const int threads : {2, 3}) EXPECT_EQ(digests(frames_of(options(threads), scene, 120)), digests(one)) << threads;
 }
 
-// Boxes are one node at every level; the levels then differ in what they count and not in what they confirm.
+// A box is one node at every level; the levels then differ in what they count and not in what they confirm.
 TEST(RigidPipeline, HasTheSameBitsAtLevelsAToCAndWithoutABroadPhase) {
   const Scene scene = scene_of(kHeap);
   const auto c = digests(frames_of(options(), scene, 60));
@@ -83,18 +83,19 @@ TEST(RigidPipeline, HasTheSameBitsAtLevelsAToCAndWithoutABroadPhase) {
   EXPECT_EQ(digests(frames_of(std::move(brute), scene, 60)), c);
 }
 
-// Who is struck moves on in the same step: cubes that fall on each other ended 5 cm deep in those below.
+// A body that is struck moves on in the same step. Before, cubes that fell on each other ended 5 cm deep in those
+// below.
 TEST(RigidPipeline, AStruckBodyMeetsTheNextOne) {
   const Scene scene = scene_of("freefall:cube:100[rigid=1,frames=60]");
   float deepest = 0.0F;
   for (const FrameRecord& f : frames_of(options(), scene, 60))
     for (const core::ContactPoint& p : f.points) deepest = std::max(deepest, -p.gap_m);
-  // Class A without the speed: the scene's slop, and what two bodies fall in a step.
+  // The limit for class A without the part for speed: the scene's slop, and what two bodies fall in a step.
   const float fall_m = core::length(scene.gravity_m_s2) * scene.dt_s * scene.dt_s;
   EXPECT_LT(deepest, scene.parameters.delta_m + 2.0F * fall_m);
 }
 
-// Not of bodies that fall, nor where some may sleep.
+// Patches are not carried for bodies that fall, nor where some bodies may sleep.
 TEST(RigidPipeline, CarriesPatchesOfRoundHullsThatRest) {
   const auto carried = [](bool sleeps, std::uint32_t steps) {
     RigidPipelineOptions how = options();
@@ -171,7 +172,7 @@ TEST(RigidPipeline, AWrenchActs) {
   EXPECT_NEAR(frames.back().velocity[0].x, 5.0F / 10.0F * t, 1e-5F);
 }
 
-// Half a second of an arch that stands by 1 %: how far a stone goes, m.
+// An arch that stands with 1 % to spare, for half a second: how far a stone moves, m.
 float moved_in_arch(const core::SoftSettings& solver) {
   const Scene scene = scene_of("rigid:arch:25-stands");
   RigidPipelineOptions how = options();

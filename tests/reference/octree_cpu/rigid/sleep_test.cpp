@@ -43,7 +43,7 @@ TEST(Sleep, APileSleepsAsOneAndStandsBitForBit) {
   }
 }
 
-// Its contacts go on giving what they gave: the floor bears three cubes.
+// The contacts of sleeping bodies go on giving their impulses: the floor bears three cubes.
 TEST(Sleep, WhoSleepsIsStillBorne) {
   const PipelineRig rig = piles();
   const auto frames = rig.run(85);
@@ -52,13 +52,13 @@ TEST(Sleep, WhoSleepsIsStillBorne) {
   for (const core::ContactPoint& p : frames.back().points)
     if (p.a == 0 && core::is_face(p.b)) borne += static_cast<double>(p.impulse.y);
   const double weight = 3.0 * 9.81 * static_cast<double>(rig.scene.dt_s);
-  // A body may be stopped from a sixteenth of what gravity gives in a step.
+  // A body may be put to rest while it moves at up to a sixteenth of the speed that gravity gives in a step.
   EXPECT_NEAR(borne, weight, weight / 8.0);
 }
 
 TEST(Sleep, APileWakesAsOneWhereItIsStruckAndNobodyElseDoes) {
   const auto frames = piles().run(150);
-  // The first frame after its sleep in which the top of the struck pile moves.
+  // The first frame, after the pile fell asleep, in which the top of the struck pile moves.
   std::size_t woken = 80;
   while (woken < frames.size() && is_asleep(frames[woken], 2)) ++woken;
   ASSERT_LT(woken, frames.size()) << "the ball wakes nobody";
@@ -99,7 +99,7 @@ TEST(Sleep, NobodySleepsWithoutGravity) {
   rig.scene.gravity_m_s2 = {};
   const auto frames = rig.run(60);
   EXPECT_FALSE(reference::RigidPipeline(rig.options).declaration_for(rig.scene).declares("sleep_speed_m_s"));
-  // Nothing moves there, and nothing is stopped: a push that comes later is felt at once.
+  // Nothing moves here and no body is put to rest, so that a push that comes later acts at once.
   EXPECT_EQ(frames.back().position[0], rig.scene.bodies[0].position);
 }
 

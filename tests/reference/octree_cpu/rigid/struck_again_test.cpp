@@ -1,4 +1,4 @@
-// Cubes of a heap that leave what they fell on, and are struck from above while they are hardly apart from it.
+// Cubes of a heap leave the bodies that they fell on, and are struck from above while the gap is still small.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -11,7 +11,7 @@
 namespace broadside::tests {
 namespace {
 
-// Of this heap a pair was not among the candidates of such a step, and ended 46 mm deep.
+// Before, one pair of this heap was missing among the candidates of such a step, and ended 46 mm deep.
 TEST(StruckAgain, BodiesDoNotEndInWhatTheyHaveJustLeft) {
   auto scene = datasets::make_scene("freefall:cube:300[rigid=1,seed=2]", {});
   ASSERT_TRUE(scene.ok()) << (scene.ok() ? "" : scene.error().line());

@@ -64,9 +64,9 @@ TEST(Sweep, ABladeStopsWhereItTurnsIntoABall) {
   blade.swing_m = core::swing_of(blade.start, blade.end, reach_m);
   const Vec3 at{0.9F * half, 0.9F * half, 0};
   const float share = core::clear_share(box({1.0F, 0.05F, 0.05F}), blade, ball(0.05F), straight(at, at), 0.0F, 1e-3F);
-  // Its face is 0.05 m from its middle and the ball's surface 0.05 m before the ball's: 0.1 / 0.9 rad before 45
-  // degrees. On the chord from one orientation to the other, (1 - s, 0) + s (cos 45, sin 45), that is where the half
-  // angle is.
+  // The blade's face is 0.05 m from its middle plane, and the ball's surface is 0.05 m before the ball's center: they
+  // meet 0.1 / 0.9 rad before 45 degrees. On the chord from one orientation to the other, (1 - s, 0) + s (cos 45, sin
+  // 45), that is where the half angle is.
   const double tangent = std::tan(0.5 * (std::atan(1.0) - std::asin(0.1 / 0.9)));
   const double exact = tangent / (std::sqrt(0.5) + tangent * (1.0 - std::sqrt(0.5)));
   EXPECT_LE(share, exact + 1e-6);
@@ -79,7 +79,7 @@ TEST(Sweep, WhoIsInAnotherMayLeaveIt) {
       1.0F);
 }
 
-// In each other by 2 cm where 1 is allowed: they part, or stay where they are.
+// Two balls overlap by 2 cm where 1 cm is allowed: they may part, or stay where they are.
 TEST(Sweep, WhoIsTooDeepInAnotherMayOnlyPart) {
   const auto share_to = [](Vec3 to) {
     return core::clear_share(ball(0.1F), straight({0.18F, 0, 0}, to), ball(0.1F), straight({}, {}), 0.01F, 0.001F);
@@ -90,7 +90,7 @@ TEST(Sweep, WhoIsTooDeepInAnotherMayOnlyPart) {
   EXPECT_EQ(share_to({-0.3F, 0, 0}), 0.0F) << "through it";
 }
 
-// Step by step bodies came deeper: each step allowed a little more than the one before had left.
+// Before, bodies went deeper step by step: each step allowed a little more than the one before had left.
 TEST(Sweep, WhoIsHeldBetweenOthersComesNoDeeper) {
   float x = 0.195F;  // 5 mm deep where 10 are allowed
   for (int step = 0; step < 100; ++step)
@@ -112,10 +112,11 @@ PipelineRig cards(float speed_m_s, bool sweeps) {
   return rig;
 }
 
-// At this speed cards stay behind each other; at others they tumble past each other, which is no passing through, and
+// At this speed the cards stay behind each other. At others they tumble past each other; that is not passing through,
+// and the law `passage` tells the two apart.
 // which the law `passage` tells apart.
 //
-// The least distance in which a body is ahead of the one behind it, over all frames: below 0 where one passed through.
+// The least distance by which a body is ahead of the one behind it, over all frames: below 0 where one passed through.
 float least_lead_m(const std::vector<FrameRecord>& frames) {
   float least = INFINITY;
   for (const FrameRecord& f : frames)
@@ -128,7 +129,7 @@ TEST(Sweep, ABulletPassesThroughNoCardThatItDrivesIntoOthers) {
   EXPECT_LT(least_lead_m(cards(180.0F, false).run(10)), 0.0F) << "nothing to be seen without the sweep";
 }
 
-// By default those are followed that the scene flags, with all that they meet.
+// By default those bodies are swept that the scene flags, against all bodies that they meet.
 TEST(Sweep, FollowsWhomTheSceneCallsFast) {
   PipelineRig rig = cards(180.0F, false);
   rig.options.swept = core::Swept::kFlagged;
@@ -152,7 +153,7 @@ TEST(Sweep, FollowsWhomTheSceneCallsFast) {
   EXPECT_EQ(sum(), with_nobody);
 }
 
-// The bullet alone is flagged: it passes no card, and cards that it drives on are no pair of its.
+// The bullet alone is flagged: it passes through no card. Pairs of cards that it drives into each other are not swept.
 TEST(Sweep, AFlaggedBulletPassesThroughNoCard) {
   PipelineRig rig = cards(140.0F, false);
   rig.options.swept = core::Swept::kFlagged;
@@ -175,7 +176,7 @@ TEST(Sweep, HasTheSameBitsOnAnyNumberOfThreads) {
   EXPECT_EQ(sums[2], sums[0]);
 }
 
-// What is slow is as it is without the sweep, bit for bit.
+// Slow bodies move as they do without the sweep, bit for bit.
 TEST(Sweep, ChangesNothingWhereNobodyIsFast) {
   PipelineRig rig;
   const std::uint32_t cube = rig.box(1, 1, 1);
@@ -187,8 +188,8 @@ TEST(Sweep, ChangesNothingWhereNobodyIsFast) {
   for (std::size_t k = 0; k < with.size(); ++k) ASSERT_EQ(with[k].digest, without[k].digest) << k;
 }
 
-// A needle that turns and strikes a plate at 100 m/s spins at ten thousand radians a second about itself; with the
-// masses of the step's start sweeps over its contacts grew without end.
+// A needle that turns and strikes a plate at 100 m/s spins at ten thousand radians a second about its own axis. Before,
+// sweeps over its contacts used the masses of the step's start, and impulses grew without end.
 TEST(Sweep, ANeedleThatStrikesAPlateEndsAtNumbers) {
   for (const float spin : {-30.0F, -10.0F, 20.0F, 30.0F}) {
     PipelineRig rig;

@@ -29,7 +29,7 @@ core::Body& add_cube(PipelineRig& rig, std::uint32_t mesh, core::Vec3 x, float s
   return body;
 }
 
-// The deepest point of all frames, in sides of the smaller body.
+// The depth of the deepest point of all frames, in sides of the smaller body.
 double deepest_share(const PipelineRig& rig, const std::vector<float>& sides_m, std::uint32_t steps) {
   double deepest = 0.0;
   for (const core::FrameRecord& f : rig.run(steps))
@@ -40,8 +40,8 @@ double deepest_share(const PipelineRig& rig, const std::vector<float>& sides_m, 
   return deepest;
 }
 
-// Columns of three that fall a twentieth of their size onto each other. A step in which a cube falls by the same share
-// of its side.
+// Columns of three cubes that fall a twentieth of their size onto each other. Steps are such that a cube falls by the
+// same share of its side in each.
 double deepest_of_size(float side_m, bool is_fixed) {
   PipelineRig rig = rig_of_still_boxes(is_fixed);
   rig.scene.dt_s = std::sqrt(side_m) / 60.0F;
@@ -116,8 +116,8 @@ TEST(Thresholds, FixedOnesDoNotServeAThousandToOne) {
   EXPECT_GT(deepest_of_mixture(true), kBar);
 }
 
-// A cube of 8 kg that falls at 9 m/s on one of 16 g, which lies askew on another of 8 kg: how deep the small one ends
-// in either, in its sides.
+// A cube of 8 kg falls at 9 m/s on one of 16 g, which lies askew on another of 8 kg. Returns how deep the small one
+// ends in either, in its sides.
 double deepest_under_a_heavy_one(const core::SoftSettings& settings) {
   PipelineRig rig;
   rig.options.make_solver = [settings](const core::Scene&) { return reference::make_soft_solver(settings); };
@@ -128,7 +128,7 @@ double deepest_under_a_heavy_one(const core::SoftSettings& settings) {
   return deepest_share(rig, {2.0F, 0.25F, 2.0F}, 40);
 }
 
-// Neither its contacts' stiffness nor what the start of a step shows was enough.
+// Neither stiffer contacts nor the patches of the step's start were enough.
 TEST(Thresholds, ALightBodyIsNotCrushedByAHeavyOneThatFalls) {
   core::SoftSettings once;
   once.lively = once.calm = {1, once.even};
