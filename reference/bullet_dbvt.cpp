@@ -45,8 +45,8 @@ class BulletDbvt final : public core::BroadPhase {
     return {.exact = true, .margin_m = static_cast<double>(margin_), .keeps_stale_pairs = true};
   }
 
-  // Bullet finds the pairs of a box as the box enters, which is work that is timed: boxes enter in the first update or
-  // find, and here they are only kept.
+  // Bullet finds the pairs of a box as the box enters, and that work is timed. So boxes enter in the first update or
+  // find, and are only stored here.
   Status load(std::span<const core::Box> boxes, std::span<const std::uint8_t> is_static) override {
     if (Status status = given_.load(kBulletDbvtId, boxes, is_static); !status) return status;
     return vendor_call("bullet-dbvt: load", [&]() -> Status {
@@ -58,7 +58,7 @@ class BulletDbvt final : public core::BroadPhase {
     });
   }
 
-  // Unless deferred, Bullet finds new pairs in here: charge update and find together.
+  // Unless deferred, Bullet finds new pairs in here: count the times of update and find together.
   Status update(std::span<const core::Box> boxes) override {
     if (Status status = given_.update(kBulletDbvtId, boxes); !status) return status;
     return vendor_call("bullet-dbvt: update", [&]() -> Status {
@@ -104,7 +104,7 @@ class BulletDbvt final : public core::BroadPhase {
     const std::span<const std::uint8_t> is_static = given_.is_static();
     proxies_.reserve(boxes.size());
     for (std::uint32_t i = 0; i < given_.count(); ++i) {
-      // As btCollisionWorld does it: two static bodies are no pair; all other pairs pass.
+      // As btCollisionWorld does it: two static bodies make no pair; all other pairs pass the filter.
       const int group = is_static[i] != 0 ? btBroadphaseProxy::StaticFilter : btBroadphaseProxy::DefaultFilter;
       const int mask = is_static[i] != 0 ? btBroadphaseProxy::AllFilter ^ btBroadphaseProxy::StaticFilter
                                          : static_cast<int>(btBroadphaseProxy::AllFilter);
@@ -147,7 +147,8 @@ core::Result<core::Engine> create_bullet_dbvt(const core::Settings& settings) {
   engine.id = kBulletDbvtId;
   engine.build = bullet_build();
   engine.settings = settings;
-  // Everybody who changes gDbvtMargin restores it, so this is the value that the loaded library ships: 0.05 m in 3.24.
+  // Every function that changes gDbvtMargin restores it, so this is the value with which the library was shipped: 0.05
+  // m in 3.24.
   const btScalar margin = margin_m_of(settings, gDbvtMargin);
   const auto stale = std::make_shared<DefectCounter>(Defect::kBulletStalePairs);
   engine.broad_phase = std::make_unique<BulletDbvt>(margin, settings.text("deferred") == "on", stale);

@@ -45,21 +45,21 @@ class BulletSap final : public core::BroadPhase {
   // and clamping are monotone, so no pair is lost, and some are added.
   [[nodiscard]] core::BroadPhaseTraits traits() const override { return {}; }
 
-  // Bullet finds the pairs of a box as the box enters, which is work that is timed: boxes enter in the first update or
-  // find, and here they are only kept.
+  // Bullet finds the pairs of a box as the box enters, and that work is timed. So boxes enter in the first update or
+  // find, and are only stored here.
   Status load(std::span<const core::Box> boxes, std::span<const std::uint8_t> is_static) override {
     if (Status status = given_.load(kBulletSapId, boxes, is_static); !status) return status;
     return vendor_call("bullet-sap: load", [&]() -> Status {
       destroy_proxies();
       const core::Box world = sweep_world(boxes);
-      // Nothing casts rays here, and the tree for rays would be updated in the timed zone.
+      // No rays are cast here, and the tree for rays would be updated in the timed zone.
       sweep_ = std::make_unique<bt32BitAxisSweep3>(bullet(world.min), bullet(world.max), given_.count() + 1, nullptr,
                                                    /*disableRaycastAccelerator=*/true);
       return core::Done{};
     });
   }
 
-  // Pairs come and go in here, as end points pass each other: charge update and find together.
+  // Pairs come and go in here, as end points pass each other: count the times of update and find together.
   Status update(std::span<const core::Box> boxes) override {
     if (Status status = given_.update(kBulletSapId, boxes); !status) return status;
     return vendor_call("bullet-sap: update", [&]() -> Status {

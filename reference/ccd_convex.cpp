@@ -1,5 +1,5 @@
-// libccd on convex bodies: does the hull of A's vertices, or the primitive that they draw, meet B's, how deep, and
-// along which direction. It tells no distance for bodies that are apart.
+// libccd on convex bodies: whether the hull of A's vertices, or the primitive that they draw, meets B's, how deep, and
+// along which direction. It gives no distance for bodies that are apart.
 #include <ccd/ccd.h>
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/task_arena.h>
@@ -30,17 +30,17 @@ using core::Status;
 using core::Vec3;
 
 constexpr std::string_view kId = "ccd";
-// At which EPA and MPR stop refining, m: ten times the rounding of a float coordinate of 1 m, so that the library is
-// not asked for more than the poses carry. Its default, 1e-4, is a tenth of the method's slop.
+// The tolerance at which EPA and MPR stop refining, m: ten times the rounding of a float coordinate of 1 m, so that the
+// library does not compute digits that the poses lack. Its default, 1e-4, is a tenth of the method's slop.
 constexpr ccd_real_t kTolerance = 1e-6;
-// EPA compares it with squares: of the distance of a new point from the face that it would split, and of distances from
-// the origin. 1e-6 would leave round bodies a millimeter off.
+// EPA compares its tolerance with squares: of the distance of a new point from the face that it would split, and of
+// distances from the origin. 1e-6 would leave the depth of round bodies off by a millimeter.
 constexpr ccd_real_t kEpaTolerance = kTolerance * kTolerance;
 // GJK on polytopes ends after a few tens of steps; libccd's default is 2^64 - 1, so a cycle would never end.
 constexpr unsigned long kMostIterations = 1000;
 
 // A convex body: the points whose hull it is, turned already, in float as the pipeline turns them, with a ball of this
-// radius around each (METHOD knows none; a sphere is one point, a capsule two).
+// radius around each (METHOD has no such radius; a sphere is one point, a capsule two).
 struct Points {
   std::vector<Vec3> points;
   double radius_m = 0.0;
@@ -117,7 +117,7 @@ Separation measure_one(const Placed& a, const Placed& b, bool is_mpr, DefectCoun
     return out;
   }
   out.is_touching = true;
-  // Known to happen with GJK (issue 25 of libccd): then it is only known that the bodies meet.
+  // GJK is known to give NaN (issue 25 of libccd): then it is only known that the bodies meet.
   const bool is_number = std::isfinite(depth) && is_finite(direction) && is_finite(at);
   not_numbers.note(is_number ? 0 : 1, 1);
   if (!is_number) return out;

@@ -181,7 +181,7 @@ core::Result<core::Engine> create(const core::Settings& settings) {
   engine.id = kId;
   engine.build = build_of(device.get());
   engine.settings = settings;
-  // The card may be asked for when the device is gone, so its facts are read here.
+  // The card may be asked for after the device is gone, so its facts are read here.
   engine.equivalence = [card = card_of(device.get(), engine.build, workers, settings.text("quality"))](
                            const core::Scene&) { return card; };
   engine.broad_phase = std::make_unique<EmbreeCollide>(std::move(device), quality_of(settings));

@@ -1,6 +1,6 @@
 // The row of every engine of this folder. Each function is defined in its engine's file; settings and "what" texts have
-// static storage. engines.inc is the list: macros make declarations and table of it, so that neither can lack an
-// engine.
+// static storage. engines.inc is the list: macros make both the declarations and the table from it, so that an engine
+// is in both.
 #pragma once
 
 #include <span>

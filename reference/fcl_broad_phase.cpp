@@ -46,7 +46,7 @@ bool collect(Object* a, Object* b, void* pairs) {
   return false;
 }
 
-// The given boxes as collision objects that are nothing but a box. Float converts to double exactly and the pose stays
+// The given boxes as collision objects that consist of a box alone. Float converts to double exactly and the pose stays
 // the identity, so FCL's box of an object is the given box: it adds a translation of 0.0.
 class BoxObjects {
  public:
@@ -106,13 +106,13 @@ class FclBroadPhase final : public core::BroadPhase {
  public:
   FclBroadPhase(std::string_view id, std::string_view manager) : id_(id), manager_name_(manager) {}
 
-  // The boxes inside are exactly the given ones (see BoxObjects): nothing is fattened, nothing is kept. Three managers
-  // lose boxes that only touch (README, known defects), so they are not called exact.
+  // The boxes inside are exactly the given ones (see BoxObjects): nothing is fattened, and no pairs are kept between
+  // frames. Three managers lose boxes that only touch (README, known defects), so they are not called exact.
   [[nodiscard]] core::BroadPhaseTraits traits() const override {
     return {.exact = manager_name_ == "tree" || manager_name_ == "tree-array" || manager_name_ == "ssap"};
   }
 
-  // The incremental manager finds the pairs of its objects as they enter, which is work that is timed: they enter in
+  // The incremental manager finds the pairs of its objects as they enter, and that work is timed. So objects enter in
   // the first update or find. The other managers only sort and build here.
   Status load(std::span<const core::Box> boxes, std::span<const std::uint8_t> is_static) override {
     if (Status status = given_.load(id_, boxes, is_static); !status) return status;

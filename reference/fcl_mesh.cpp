@@ -94,8 +94,8 @@ class FclMesh final : public core::NarrowPhase {
     });
   }
 
-  // Pairs are independent and FCL keeps its state in the call's own objects, so they run side by side, each into its
-  // own slot: the answer does not depend on the number of workers.
+  // Pairs are independent and FCL keeps its state in objects of the call, so they are computed in parallel, each into
+  // its own slot: the answer does not depend on the number of workers.
   Status measure(std::span<const core::Pair> pairs, std::span<const core::Pose> poses) override {
     if (Status status = check_pairs(kFclMeshId, pairs, poses, model_of_body_.size()); !status) return status;
     separations_.assign(pairs.size(), {});

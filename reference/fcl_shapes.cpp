@@ -134,7 +134,7 @@ Separation measure_one(const Placed& a, const Placed& b, const Query& query) {
   out.is_touching = near.min_distance <= 0.0;
   Vector from_b_to_a = near.nearest_points[0] - near.nearest_points[1];
   // In overlap the nearest points have passed each other. With the independent solver they do not lie on the surfaces
-  // then, and its direction is that of its contact.
+  // then, so the direction of its contact is used.
   if (out.is_touching && query.solver == fcl::GST_INDEP) {
     Separation contact;
     if (collide(a, b, query, contact)) out.normal = contact.normal;

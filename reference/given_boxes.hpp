@@ -1,5 +1,6 @@
-// The boxes that a broad phase was given, and what it takes to make an engine's raw pairs comparable: every reference
-// is judged on the same exact set (METHOD section 2), so fat boxes and stale pairs are filtered here, and charged.
+// The boxes that a broad phase was given, and the filter that makes an engine's raw pairs comparable. Every reference
+// is judged on the same exact set (METHOD section 2), so pairs of fat boxes and stale pairs are removed here, and the
+// time is charged to the engine.
 #pragma once
 
 #include <cstdint>
@@ -23,7 +24,8 @@ class GivenBoxes {
   [[nodiscard]] std::uint32_t count() const { return static_cast<std::uint32_t>(boxes_.size()); }
 
   // Keeps the pairs whose given boxes overlap, P(6), and that are not both static; sorts them and drops repetitions.
-  // raw = how many came in, filter_s = the time of keeping (not of sorting), demanded = how many are left.
+  // raw = how many pairs the engine gave, filter_s = the time of keeping (not of sorting), demanded = how many are
+  // left.
   [[nodiscard]] core::PairSet tighten(std::vector<core::Pair> raw) const;
 
  private:

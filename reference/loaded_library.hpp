@@ -11,7 +11,7 @@ namespace broadside::reference {
 // "unknown" when the loader cannot tell.
 std::string loaded_library(const void* address);
 
-// Does that library's file contain this text, such as the name of a symbol that it imports? Nothing when the file
+// Whether that library's file contains this text, such as the name of a symbol that it imports. Nothing when the file
 // cannot be read.
 std::optional<bool> library_mentions(const void* address, std::string_view text);
 

@@ -1,4 +1,5 @@
-// What a narrow-phase adapter prepares once per mesh and orientation: bodies that only translate never need it again.
+// Shapes that a narrow-phase adapter prepares once per mesh and orientation: a body that only translates keeps its
+// shape.
 #pragma once
 
 #include <cstdint>
@@ -21,7 +22,7 @@ class TurnedShapes {
 
   explicit TurnedShapes(Make make) : make_(std::move(make)) {}
 
-  // Forgets what was there and makes the shapes of every body as the scene has it.
+  // Removes the earlier shapes, and makes the shape of every body as the scene has it.
   void load(const core::Scene& scene) {
     meshes_ = scene.meshes;
     made_.clear();
@@ -35,7 +36,7 @@ class TurnedShapes {
   [[nodiscard]] std::size_t body_count() const { return mesh_of_body_.size(); }
 
   // The shape of each body that is in a pair, by body; null for the others. A body that turned since load gets a new
-  // one. Not for several threads at once.
+  // shape. Do not call it from several threads at once.
   std::vector<const Shape*> of(std::span<const core::Pair> pairs, std::span<const core::Pose> poses) {
     std::vector<const Shape*> shapes(poses.size(), nullptr);
     for (const core::Pair p : pairs)

@@ -11,8 +11,8 @@
 
 namespace broadside::reference {
 
-// Runs call(), which returns a Result. `where` names engine and stage: "fcl-tree: find". The cell that asked for it
-// goes missing, hence the exit code. Aborts are not caught here: references run in a child process for that.
+// Runs call(), which returns a Result. `where` names engine and stage: "fcl-tree: find". An exception becomes an error
+// with the exit code of a missing cell. Aborts are not caught here: references run in a child process for that.
 template <typename Call>
 auto vendor_call(std::string_view where, Call&& call) -> decltype(call()) {
   try {

@@ -59,7 +59,7 @@ class DefectCounter {
 
 using SharedDefectCounter = std::shared_ptr<DefectCounter>;
 
-// What Engine::defects of an adapter with one counter is.
+// Engine::defects for an adapter with one counter.
 inline auto defects_of(const SharedDefectCounter& counter) {
   return [counter] { return std::vector<core::DefectHits>{counter->hits()}; };
 }

@@ -1,4 +1,4 @@
-// A vector of somebody else's library as one of core's: one with x(), y() and z(), as those of Eigen are.
+// Converts a vector of another library into core's: any type with x(), y() and z(), such as those of Eigen.
 #pragma once
 
 #include "core/math/vec3.hpp"

@@ -5,10 +5,10 @@
 
 namespace broadside::reference {
 
-// 0 = every core. Never more than there are cores: oneTBB complains aloud when asked for more.
+// 0 = every core. Never more than there are cores: oneTBB prints a warning when asked for more.
 int worker_count(unsigned long setting);
 
-// Its row in the table of an engine whose answers do not depend on it.
+// The row of this setting in the table of an engine whose answers do not depend on it.
 core::SettingRow threads_setting();
 
 }  // namespace broadside::reference

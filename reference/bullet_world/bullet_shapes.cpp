@@ -33,7 +33,7 @@ std::string millimeters(double meters) {
   return text;
 }
 
-// A share of the least half side, as Bullet's own boxes have it, so that thin boxes keep their form.
+// At most this share of the least half side, as Bullet does for its own boxes, so that thin boxes keep their form.
 constexpr float kLargestBoxMargin = 0.1F;
 
 float least_of(core::Vec3 v) {
@@ -59,7 +59,7 @@ BulletShape primitive_shape(const core::Primitive& p, const BulletShapeOptions& 
     if (p.axis == 0) cylinder = std::make_shared<btCylinderShapeX>(half);
     if (p.axis == 1) cylinder = std::make_shared<btCylinderShape>(half);
     if (p.axis == 2) cylinder = std::make_shared<btCylinderShapeZ>(half);
-    // As of a box: the margin lies inside.
+    // As for a box, the margin lies inside.
     cylinder->setMargin(std::min(options.margin_m, kLargestBoxMargin * least_of(p.half_extents)));
     out.shape = std::move(cylinder);
   } else {

@@ -87,15 +87,15 @@ struct World {
   btSequentialImpulseConstraintSolver solver;
   btDiscreteDynamicsWorld dynamics{&dispatcher, &broad_phase, &solver, &configuration};
   std::vector<BulletShape> shapes;                        // one per mesh
-  std::vector<std::unique_ptr<btCompoundShape>> shifted;  // of bodies whose center of mass or axes are not the mesh's
+  std::vector<std::unique_ptr<btCompoundShape>> shifted;  // for bodies whose center of mass or axes are not the mesh's
   std::vector<std::unique_ptr<btStaticPlaneShape>> planes;
   std::vector<std::unique_ptr<btRigidBody>> bodies;  // the scene's, then the faces of its domain
 
   World() { btGImpactCollisionAlgorithm::registerAlgorithm(&dispatcher); }
   World(const World&) = delete;
   World& operator=(const World&) = delete;
-  // Bullet looks through all its pairs for each body that it removes. Each face has a pair with every body: the faces
-  // go first, or 100,000 bodies take minutes.
+  // Bullet looks through all its pairs for each body that it removes. Each face has a pair with every body, so the
+  // faces are removed first; otherwise 100,000 bodies take minutes.
   ~World() {
     const std::size_t first_face = bodies.size() - std::min(bodies.size(), planes.size());
     for (std::size_t k = first_face; k < bodies.size(); ++k) dynamics.removeRigidBody(bodies[k].get());
@@ -207,8 +207,8 @@ class BulletWorld final : public core::Dynamics {
     add(std::move(body), given.material, i);
   }
 
-  // Bullet's bodies lie about their center of mass, in axes in which the inertia is diagonal. Where these are not the
-  // mesh's, the shape becomes the child of a compound. Gives the moments.
+  // Bullet's bodies are placed by their center of mass, in axes in which the inertia is diagonal. Where these are not
+  // the mesh's, the shape becomes the child of a compound. Writes the principal moments to `inertia`.
   btCollisionShape* shape_about_mass(std::uint32_t i, btCollisionShape* shape, btVector3& inertia) {
     const RigidStart& start = starts_[i];
     const PrincipalAxes axes = principal_axes(start.inertia);
@@ -309,7 +309,7 @@ class BulletWorld final : public core::Dynamics {
   const core::Scene* scene_ = nullptr;
   bool rotates_ = false;
   std::unique_ptr<World> world_;
-  std::vector<RigidStart> starts_;           // of scenes whose bodies turn
+  std::vector<RigidStart> starts_;           // for scenes whose bodies turn
   std::vector<BodyWrench> wrenches_;         // by body; none where the scene has none
   std::vector<btTransform> body_from_mesh_;  // pose of the mesh in the body's principal axes
   std::vector<core::Quat> turned_before_;

@@ -9,16 +9,16 @@
 
 namespace broadside::reference {
 
-// How Bullet reckons the torque that turns w about L; the names are those of btRigidBodyFlags.
+// How Bullet computes the torque that turns w about L; the names are those of btRigidBodyFlags.
 enum class BulletGyroscopic { kImplicitBody, kImplicitWorld, kExplicit, kOff };
 
 struct BulletWorldOptions {
   BulletShapeOptions shapes;
   bool uses_scene_rules = true;  // for friction and restitution of two surfaces; otherwise Bullet's products
   bool always_rotates = false;   // otherwise only where a body of the scene has angular velocity
-  bool warm_starting = true;     // without it Bullet does not keep its impulses, and no points are recorded
+  bool warm_starting = true;     // otherwise Bullet does not keep its impulses, and no points are recorded
   int iterations = 10;
-  bool has_two_frictions = false;  // directions of friction a point; one, along the slip, as Bullet ships
+  bool has_two_frictions = false;  // two directions of friction a point; otherwise one, along the slip, as Bullet ships
   BulletGyroscopic gyroscopic = BulletGyroscopic::kImplicitBody;  // as Bullet ships
 };
 

@@ -50,8 +50,8 @@ Contact contact_of(const btManifoldPoint& point, std::uint32_t body0, std::uint3
   return c;
 }
 
-// Bullet keeps a point on each surface and lets the two slide apart, by up to its breaking threshold; each body's
-// impulse acts at its own. Of two bodies that move the middle is recorded.
+// Bullet keeps a point on each surface and lets the two slide apart, by up to its breaking threshold; the impulse on
+// each body acts at that body's point. Where both bodies move, the middle between the points is recorded.
 btVector3 place_of(const btManifoldPoint& point, const btCollisionObject& body0, const btCollisionObject& body1) {
   if (body1.isStaticObject()) return point.getPositionWorldOnA();
   if (body0.isStaticObject()) return point.getPositionWorldOnB();
@@ -74,7 +74,7 @@ core::ContactPoint point_of(const btManifoldPoint& point, const btCollisionObjec
   return p;
 }
 
-// Pairs of bodies first, then faces, by body.
+// Pairs of bodies come first and pairs with faces after them, each ordered by body.
 template <typename T>
 bool is_before(const T& p, const T& q) {
   return std::tuple(core::is_face(p.b), p.a, p.b) < std::tuple(core::is_face(q.b), q.a, q.b);

@@ -26,7 +26,7 @@ std::string number(double value) {
   return text;
 }
 
-// What became of each mesh, and where that differs from the mesh.
+// Says which shape each mesh became, and where that shape differs from the mesh.
 void add_shapes(const core::Scene& scene, const BulletWorldOptions& options, core::EquivalenceCard& card) {
   for (const auto& mesh : scene.meshes) {
     const BulletShape shape = make_bullet_shape(mesh, options.shapes);
@@ -146,7 +146,7 @@ core::Result<core::Engine> create(const core::Settings& settings) {
                                               {"iterations", std::to_string(std::max(1, options.iterations))},
                                               {"friction", "pyramid"},
                                               {"contact_margin_m", number(gContactBreakingThreshold)},
-                                              // Down to 0.04 m; deeper overlaps are split off.
+                                              // Down to 0.04 m; deeper overlaps are corrected by split impulses.
                                               {"correction", "velocity"},
                                               {"correction_rate", number(btContactSolverInfo().m_erp2)},
                                               {"precision", "f32"}});

@@ -11,7 +11,7 @@
 namespace broadside::reference {
 namespace {
 
-// Pairs of triangles that a task takes: some hundred microseconds of work.
+// Pairs of triangles per task: some hundred microseconds of work.
 constexpr std::size_t kCandidateGrain = 8192;
 
 template <typename Part>

@@ -1,4 +1,4 @@
-// Candidates of continuous collision on every core.
+// Candidates of continuous collision, found on all cores.
 #pragma once
 
 #include <span>
@@ -7,7 +7,8 @@
 
 namespace broadside::reference {
 
-// As CandidateFinder::add of all pairs, in the same order whatever the number of workers; 0 = one a core.
+// Gives the result of CandidateFinder::add for all pairs, in the same order whatever the number of workers; 0 = one a
+// core.
 continuous::FeaturePairs find_candidates(const continuous::CandidateFinder& finder,
                                          std::span<const core::Pair> triangles, unsigned workers = 0);
 

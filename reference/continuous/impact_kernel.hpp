@@ -1,4 +1,5 @@
-// First touches of many queries side by side: the text of the kernels, which are compiled for each instruction set.
+// First touches of many queries side by side: the source of the kernels, which is compiled once for each instruction
+// set.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +10,8 @@
 
 namespace broadside::reference {
 
-// Queries whose first look is over before those that it left are gone on with: they stay in the nearest cache.
+// Queries per block. After a first look at a block, the queries that it left are searched before the next block begins,
+// while their data are still in the nearest cache.
 inline constexpr std::uint32_t kBlock = 256;
 
 template <typename Lanes, int kCount, typename Source>
@@ -28,7 +30,7 @@ continuous::Differences<Lanes, kCount> load_differences(const Source& source, co
   return continuous::differences<kCount>(start, end);
 }
 
-// What the first look leaves of a block.
+// The queries of a block that the first look could not decide.
 struct LeftOver {
   std::uint32_t count = 0;
   std::uint32_t query[kBlock + 16];
@@ -45,7 +47,8 @@ void look(const Source& source, std::uint32_t first, std::uint32_t last, double*
     const unsigned apart = is_apart_at_first_look(x).lanes();
     for (std::uint32_t k = 0; k < count; ++k) {
       times[base + k] = kNoTouch;
-      // Written always and counted where it is so: no branch to guess.
+      // Writes the query always, and advances the count only where the query is left: so there is no branch to
+      // mispredict.
       left.query[left.count] = base + k;
       left.count += usual >> k & ~(apart >> k) & 1U;
     }

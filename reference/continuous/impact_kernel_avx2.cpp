@@ -1,5 +1,5 @@
-// Four doubles side by side, with the operations of core/continuous/lane_math.hpp: what each lane gives has the bits
-// that a double would give.
+// Four doubles side by side, with the operations of core/continuous/lane_math.hpp: the result in each lane has the same
+// bits as with a single double.
 #include <immintrin.h>
 
 #include "core/continuous/lane_math.hpp"
@@ -39,7 +39,7 @@ struct Lanes {
   friend Mask operator>(Lanes a, Lanes b) { return {_mm256_cmp_pd(a.v, b.v, _CMP_GT_OQ)}; }
   friend Mask operator>=(Lanes a, Lanes b) { return {_mm256_cmp_pd(a.v, b.v, _CMP_GE_OQ)}; }
 
-  // Of as many points as there are lanes, each of three doubles, or of four floats of which the last one is ignored.
+  // Loads as many points as there are lanes, each of three doubles, or of four floats of which the last one is ignored.
   static continuous::Triple<Lanes> points(const double* const (&at)[kWidth]);
   static continuous::Triple<Lanes> points(const float* const (&at)[kWidth]);
 
@@ -53,7 +53,7 @@ inline Lanes pick(Mask is_first, Lanes first, Lanes second) {
 inline Lanes magnitude(Lanes x) {
   return _mm256_andnot_pd(_mm256_set1_pd(-0.0), x.v);
 }
-// min and max give the second where neither is less: as a < b ? a : b.
+// min and max give the second argument where neither is less: as a < b ? a : b.
 inline Lanes lesser(Lanes a, Lanes b) {
   return _mm256_min_pd(a.v, b.v);
 }

@@ -1,5 +1,5 @@
-// Eight doubles side by side, with the operations of core/continuous/lane_math.hpp: what each lane gives has the bits
-// that a double would give.
+// Eight doubles side by side, with the operations of core/continuous/lane_math.hpp: the result in each lane has the
+// same bits as with a single double.
 #include <immintrin.h>
 
 #include "core/continuous/lane_math.hpp"
@@ -39,7 +39,7 @@ struct Lanes {
   friend Mask operator>(Lanes a, Lanes b) { return {_mm512_cmp_pd_mask(a.v, b.v, _CMP_GT_OQ)}; }
   friend Mask operator>=(Lanes a, Lanes b) { return {_mm512_cmp_pd_mask(a.v, b.v, _CMP_GE_OQ)}; }
 
-  // Of as many points as there are lanes, each of three doubles, or of four floats of which the last one is ignored.
+  // Loads as many points as there are lanes, each of three doubles, or of four floats of which the last one is ignored.
   static continuous::Triple<Lanes> points(const double* const (&at)[kWidth]);
   static continuous::Triple<Lanes> points(const float* const (&at)[kWidth]);
 
@@ -53,7 +53,7 @@ inline Lanes pick(Mask is_first, Lanes first, Lanes second) {
 inline Lanes magnitude(Lanes x) {
   return _mm512_abs_pd(x.v);
 }
-// min and max give the second where neither is less: as a < b ? a : b.
+// min and max give the second argument where neither is less: as a < b ? a : b.
 inline Lanes lesser(Lanes a, Lanes b) {
   return _mm512_min_pd(a.v, b.v);
 }
@@ -61,11 +61,12 @@ inline Lanes larger(Lanes a, Lanes b) {
   return _mm512_max_pd(a.v, b.v);
 }
 
-// The first three rows of a matrix of eight columns, of which each argument holds two: k and k + 4.
+// The first three rows of a matrix of eight columns. Each argument holds two columns: k and k + 4.
 inline continuous::Triple<Lanes> transposed(__m512d a, __m512d b, __m512d c, __m512d d) {
   const __m512d ab_low = _mm512_unpacklo_pd(a, b), ab_high = _mm512_unpackhi_pd(a, b);
   const __m512d cd_low = _mm512_unpacklo_pd(c, d), cd_high = _mm512_unpackhi_pd(c, d);
-  // Each holds pairs of two rows, x and z or y and w, of columns 0 1 4 5 or 2 3 6 7: one row of all, in order.
+  // Each register holds pairs of two rows (x and z, or y and w) of columns 0 1 4 5 or 2 3 6 7. Gathers one row of all
+  // columns, in order.
   const __m512i low = _mm512_set_epi64(13, 12, 5, 4, 9, 8, 1, 0);
   const __m512i high = _mm512_set_epi64(15, 14, 7, 6, 11, 10, 3, 2);
   return {_mm512_permutex2var_pd(ab_low, low, cd_low), _mm512_permutex2var_pd(ab_high, low, cd_high),

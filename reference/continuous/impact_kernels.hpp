@@ -1,5 +1,5 @@
-// First touches of many queries: one text (impact_kernel.hpp), compiled for several instruction sets; all give the same
-// bits.
+// First touches of many queries: one source (impact_kernel.hpp), compiled for several instruction sets, all of which
+// give the same bits.
 #pragma once
 
 #include <cstdint>
@@ -8,17 +8,18 @@
 
 namespace broadside::reference {
 
-// Of a query without a touch.
+// The time of a query without a touch.
 inline constexpr double kNoTouch = 2.0;
 
-// Queries first to last - 1 of a source, all of one kind: times[k] is that of query k. Of those that touch after
-// `limit` it may be kNoTouch.
+// Queries first to last - 1 of a source, all of one kind: times[k] is the first touch of query k. For queries that
+// touch after `limit` it may be kNoTouch.
 template <typename Source>
 using ImpactKernel = void (*)(const Source& source, std::uint32_t first, std::uint32_t last, double limit,
                               double* times);
 
-// A query by itself, and one that a kernel leaves to directions that turn. In a source without special instructions, so
-// that no other one compiles these functions with them, of which the linker keeps one.
+// A query by itself, and one that a kernel leaves to the search by turning directions. Both are in a source that is
+// compiled without special instructions: otherwise another source might compile these functions with them, and the
+// linker might keep that copy.
 template <int kCount, typename Source>
 double impact_alone(const Source& source, std::uint32_t query);
 template <int kCount, typename Source>
@@ -31,12 +32,12 @@ struct ImpactKernels {
   ImpactKernel<SurfacePairs<continuous::FeatureKind::kEdgeEdge>> edge_edge;
 };
 
-// Queries side by side. This machine may have neither of the last two.
+// How many queries are computed side by side. This machine may lack the last two.
 enum class Width { kWidest, kOne, kFour, kEight };
 
-// As wide as was asked for, or as this machine can.
+// The kernels of the width that was asked for, or of the widest that this machine has.
 const ImpactKernels& impact_kernels(Width width);
-// What that is: 1, 4 or 8.
+// The number of lanes of that width: 1, 4 or 8.
 int lanes_of(Width width);
 
 extern const ImpactKernels kScalarKernels;

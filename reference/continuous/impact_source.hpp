@@ -1,4 +1,4 @@
-// Where kernels read moving features from: as they are given, or by their numbers on a surface.
+// Where kernels read moving features from: an array of features, or the numbers of features on a surface.
 #pragma once
 
 #include <cstdint>
@@ -7,7 +7,7 @@
 
 namespace broadside::reference {
 
-// Of features as they are given, all of one kind.
+// Reads features as they are given, all of one kind.
 struct GivenFeatures {
   using Coordinate = double;
   const continuous::MovingFeatures* features;
@@ -17,7 +17,7 @@ struct GivenFeatures {
   [[nodiscard]] continuous::MovingFeatures at(std::uint32_t query) const { return features[query]; }
 };
 
-// Of pairs of features of a surface.
+// Reads pairs of features of a surface.
 template <continuous::FeatureKind kKind>
 struct SurfacePairs {
   using Coordinate = float;

@@ -17,7 +17,7 @@ namespace {
 using continuous::FeatureKind;
 using continuous::FeaturePair;
 
-// Queries that a task takes: some hundred microseconds of work.
+// Queries per task: some hundred microseconds of work.
 constexpr std::size_t kImpactGrain = 4096;
 
 // Calls work(first, last) for parts of `count`.
@@ -45,7 +45,8 @@ bool is_before(const EarliestImpact& a, const EarliestImpact& b) {
   return a.kind != b.kind ? a.kind < b.kind : a.pair < b.pair;
 }
 
-// The earliest of pairs of one kind. limit: of all so far, for every thread to end its queries at.
+// The earliest impact of pairs of one kind. limit: the earliest time so far of all threads, at which each thread ends
+// its queries.
 template <FeatureKind kKind>
 EarliestImpact earliest_of(const SurfacePairs<kKind>& source, std::size_t count, const ImpactSettings& settings,
                            std::atomic<double>& limit) {
@@ -81,7 +82,7 @@ void first_impacts(std::span<const continuous::MovingFeatures> features, std::sp
   in_parts(features.size(), settings.workers, [&](std::size_t first, std::size_t last) {
     const GivenFeatures source{features.data() + first};
     const auto size = static_cast<std::uint32_t>(last - first);
-    // Runs of one kind.
+    // Queries are handed over in runs of one kind.
     for (std::uint32_t begin = 0; begin < size;) {
       const FeatureKind kind = source.features[begin].kind;
       std::uint32_t end = begin + 1;

@@ -1,4 +1,4 @@
-// First touches of the features of a moving surface, and of features as they are given, on every core.
+// First touches of the features of a moving surface, or of given features, on all cores.
 #pragma once
 
 #include <span>
@@ -14,7 +14,7 @@ struct ImpactSettings {
   unsigned workers = 0;  // 0 = one a core
 };
 
-// The first of many. Of equally early ones that of the least kind and pair.
+// The earliest of many impacts. Among equally early ones, that of the least kind and pair.
 struct EarliestImpact {
   bool touches = false;
   double time = 1.0;
@@ -24,7 +24,7 @@ struct EarliestImpact {
   friend bool operator==(const EarliestImpact&, const EarliestImpact&) = default;
 };
 
-// times[k] is that of features[k], kNoTouch without a touch.
+// times[k] is the first touch of features[k], kNoTouch where there is none.
 void first_impacts(std::span<const continuous::MovingFeatures> features, std::span<double> times,
                    const ImpactSettings& settings = {});
 
@@ -34,14 +34,14 @@ std::uint64_t impact_digest(const continuous::FeaturePairs& pairs, std::span<con
 
 class SurfaceImpacts {
  public:
-  // The surface and its features must live as long.
+  // The surface and its features must outlive this object.
   SurfaceImpacts(const continuous::MovingSurface& surface, const continuous::SurfaceFeatures& features);
 
-  // As first_impact of each pair, bit for bit, whatever the settings.
+  // The result of first_impact for each pair, bit for bit, whatever the settings.
   void times(continuous::FeatureKind kind, std::span<const continuous::FeaturePair> pairs, std::span<double> times,
              const ImpactSettings& settings = {}) const;
 
-  // The earliest of all: queries end when they cannot be.
+  // The earliest of all: a query ends once it can no longer be the earliest.
   [[nodiscard]] EarliestImpact earliest(const continuous::FeaturePairs& pairs,
                                         const ImpactSettings& settings = {}) const;
 

@@ -36,7 +36,7 @@ using core::Status;
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
 
-// DART stops looking for contacts of the whole world at a thousand.
+// By default DART stops looking for contacts of the whole world at a thousand. This many are allowed for each body.
 constexpr std::size_t kPointsOfABody = 64;
 
 Vector3d eigen(plain::Vec v) {
@@ -192,8 +192,8 @@ class DartWorld final : public core::Dynamics {
     return made.second;
   }
 
-  // FCL in DART has no half-space against its meshes: a face is a box outside of the domain, as thick as the domain is
-  // long.
+  // In DART, FCL has no contact between a half-space and DART's meshes: a face is a box outside of the domain, as thick
+  // as the domain is long.
   void add_face(std::uint32_t face) {
     const core::Vec3 low = scene_->domain.min;
     const core::Vec3 size = scene_->domain.max - low;
@@ -211,7 +211,7 @@ class DartWorld final : public core::Dynamics {
     world_->addSkeleton(skeleton);
   }
 
-  // A step of DART forgets them. A node's origin is its center of mass.
+  // DART forgets forces at the end of a step. A node's origin is its center of mass.
   void apply_wrenches() {
     for (std::size_t i = 0; i < nodes_.size(); ++i) {
       const BodyWrench& w = record_.bodies()[i].wrench;
@@ -257,7 +257,7 @@ std::unique_ptr<core::Dynamics> make_dart_world(const DartOptions& options) {
 }
 
 std::string dart_build() {
-  // A static function of libdart itself: the address of an inline one would be this program's.
+  // A static function that is compiled into libdart: the address of an inline function would be in this program.
   const auto address = reinterpret_cast<const void*>(&dart::constraint::ContactConstraint::getErrorReductionParameter);
   return std::string("DART ") + DART_VERSION + " (" + loaded_library(address) + "), double";
 }

@@ -1,4 +1,4 @@
-// A point of the exact arbiters, which compute in double, as scenes and traces have it.
+// A vector of scenes and traces (float) as a point of the exact arbiters, which compute in double.
 #pragma once
 
 #include "core/exact/triangle_distance.hpp"

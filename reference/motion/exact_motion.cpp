@@ -1,4 +1,5 @@
-// The arbiter of continuous queries as an engine: the lower ends of its brackets, before which there is no touch.
+// The arbiter of continuous queries as an engine: it gives the lower ends of its brackets, before which there is no
+// touch.
 #include <memory>
 #include <vector>
 

@@ -1,4 +1,4 @@
-// FCL's vertex-face and edge-edge queries: the parts of its polynomial solver, which its mesh traversal asks.
+// FCL's vertex-face and edge-edge queries: the parts of its polynomial solver that its mesh traversal calls.
 #include <fcl/narrowphase/detail/traversal/collision/intersect.h>
 
 #include <array>
@@ -26,7 +26,7 @@ class Features final : public core::FeatureMotionQuery {
     return vendor_call("fcl-features: first touch", [&]() -> core::Result<core::FirstTouch> { return ask(f); });
   }
 
-  // As FCL is asked by its own traversal: one query after the other, nothing around them.
+  // FCL is asked as its own traversal asks it: one query after the other, without other work around them.
   core::Status first_touches(std::span<const continuous::MovingFeatures> features,
                              std::span<core::FirstTouch> found) override {
     return vendor_call("fcl-features: first touches", [&]() -> core::Status {

@@ -1,4 +1,4 @@
-// FCL's continuousCollide on bodies: its motions, its solvers, on shapes and on meshes.
+// FCL's continuousCollide on bodies: with its motions and its solvers, on shapes and on meshes.
 #include <fcl/geometry/bvh/BVH_model.h>
 #include <fcl/geometry/shape/box.h>
 #include <fcl/geometry/shape/capsule.h>
@@ -34,7 +34,7 @@ using RssModel = fcl::BVHModel<fcl::RSS<double>>;
 
 enum class Path { kLinear, kTranslation, kScrew, kSpline };
 
-// Bound volumes: RSS, the only ones for which its advancement on meshes is meant.
+// Bounding volumes: RSS, the only ones for which FCL's advancement on meshes is meant.
 std::unique_ptr<Geometry> mesh_geometry(const core::Mesh& mesh, const Transform& pose) {
   std::vector<Vector> vertices;
   for (const core::Vec3 v : mesh.vertices) vertices.push_back(pose * Vector(v.x, v.y, v.z));
@@ -116,7 +116,7 @@ std::unique_ptr<Motion> make_motion(Path path, const Transform& from, const Tran
     case Path::kLinear:
       break;
   }
-  // The constructor without a reference point leaves it as memory was.
+  // The constructor without a reference point leaves that member uninitialized.
   return std::make_unique<fcl::InterpMotion<double>>(from.linear(), from.translation(), to.linear(), to.translation(),
                                                      Vector(0.0, 0.0, 0.0));
 }
@@ -174,8 +174,8 @@ class Bodies final : public core::BodyMotionQuery {
                                           shapes_[b.mesh].geometry.get(), motion_b.get(), query_.request, result);
   }
 
-  // The polynomial solver leaves poses out, and moves the models' own vertices: so each query gets models of its own
-  // whose vertices are where they are at the start.
+  // The polynomial solver ignores poses and moves the models' own vertices. So each query gets models of its own whose
+  // vertices are where they are at the start.
   double ask_placed(const core::MovingBody& a, const core::MovingBody& b,
                     fcl::ContinuousCollisionResult<double>& result) {
     const auto placed = [&](const core::MovingBody& body) {

@@ -32,7 +32,7 @@ std::span<const core::SettingRow> setting_rows() {
 }
 
 #if BROADSIDE_HAS_MUJOCO
-// With elliptic cones: ten times as hard as the normal force. The manual names no number, but says above 1.
+// For elliptic cones: friction is ten times as hard as the normal force. The manual names no number, but says above 1.
 constexpr double kHarderFriction = 10.0;
 
 std::string number(double value) {
@@ -116,7 +116,7 @@ core::Result<core::Engine> create(const core::Settings& settings) {
                              {"detection_at", "start"},
                              {"contacts", is_runge_kutta ? "none" : "totals"},
                              {"integrator", integrator_word(options.integrator)},
-                             // Runge-Kutta's quaternions follow an averaged w: second order (measured).
+                             // Runge-Kutta's quaternions follow an averaged w, so they are of second order (measured).
                              {"order", is_runge_kutta ? "2" : "1"},
                              {"friction", "regularized"},
                              {"contact_model", "compliant"},

@@ -122,7 +122,7 @@ std::string mujoco_model(const core::Scene& scene, const std::vector<RigidStart>
                          const MujocoOptions& options) {
   std::vector<Solid> solids;
   for (const auto& mesh : scene.meshes) solids.push_back(solid_of(mesh));
-  // Room for eight points a body, and four rows a point; MuJoCo says when it is not enough.
+  // Room for eight points a body, and four rows a point; MuJoCo warns when that is not enough.
   const std::size_t points = 100 + 8 * bodies.size();
   const core::Vec3 g = scene.gravity_m_s2;
   std::string out = "<mujoco><compiler angle=\"radian\" inertiafromgeom=\"false\"/>\n<option" +

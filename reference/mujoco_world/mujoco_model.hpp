@@ -10,8 +10,8 @@
 
 namespace broadside::reference {
 
-// Geoms in the order: the six faces of the domain, then one a body. Each body that moves lies about its center of mass
-// and has a free joint, or three sliding ones where the scene's bodies translate.
+// Geoms in the order: the six faces of the domain, then one for each body. Each body that moves is placed by its center
+// of mass and has a free joint, or three sliding ones where the scene's bodies translate.
 std::string mujoco_model(const core::Scene& scene, const std::vector<RigidStart>& bodies, const MujocoOptions& options);
 
 }  // namespace broadside::reference

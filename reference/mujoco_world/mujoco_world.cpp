@@ -22,15 +22,15 @@ namespace {
 using core::Status;
 using plain::Vec;
 
-// What MuJoCo warned of since the last look. As shipped it writes warnings to a file in the working folder, drops
-// contacts that find no room, and starts the scene again from its first state where an acceleration became too large.
+// The first warning of MuJoCo since this was cleared. As shipped it writes warnings to a file in the working folder,
+// drops contacts that find no room, and restarts the scene from its first state where an acceleration became too large.
 thread_local std::string warning;
 
 void hear_warning(const char* text) {
   if (warning.empty()) warning = text;
 }
 
-// As shipped MuJoCo would end the program.
+// As shipped, MuJoCo would end the program on an error.
 [[noreturn]] void hear_error(const char* text) {
   throw std::runtime_error(text);
 }
@@ -53,7 +53,7 @@ Status no_warning(const char* where) {
                      core::Exit::kMissing};
 }
 
-// MJCF is read from a file of its own file system, here one in memory.
+// MuJoCo reads MJCF from files of a virtual file system of its own; here it holds one file in memory.
 core::Result<mjModel*> compiled(const std::string& text) {
   auto files = std::make_unique<mjVFS>();
   mj_defaultVFS(files.get());
@@ -115,7 +115,8 @@ class MujocoWorld final : public core::Dynamics {
  private:
   [[nodiscard]] bool has_points() const { return options_.integrator != MujocoIntegrator::kRungeKutta; }
 
-  // Body 0 is the world, so the scene's body i is body i + 1 of the model. A body's coordinates begin at its joint's.
+  // Body 0 is the world, so the scene's body i is body i + 1 of the model. A body's coordinates begin at those of its
+  // joint.
   [[nodiscard]] int first_joint(std::size_t body) const { return model_->body_jntadr[body + 1]; }
 
   void begin() {
@@ -125,7 +126,7 @@ class MujocoWorld final : public core::Dynamics {
       mjtNum* speed = data_->qvel + model_->jnt_dofadr[first_joint(i)];
       speed[0] = s.v.x, speed[1] = s.v.y, speed[2] = s.v.z;
       if (!record_.turns()) continue;
-      const Vec w = plain::transposed(plain::matrix(s.q)) * s.w;  // of a free joint in body axes
+      const Vec w = plain::transposed(plain::matrix(s.q)) * s.w;  // a free joint's angular velocity is in body axes
       speed[3] = w.x, speed[4] = w.y, speed[5] = w.z;
     }
   }
@@ -162,8 +163,8 @@ class MujocoWorld final : public core::Dynamics {
     }
   }
 
-  // Geoms 0 to 5 are the faces, then one a body (mujoco_model). Geoms of the world and of bodies come in that order
-  // too, as MuJoCo sorts geoms by body.
+  // Geoms 0 to 5 are the faces, then there is one for each body (mujoco_model). MuJoCo sorts geoms by body, and keeps
+  // this order.
   [[nodiscard]] std::uint32_t id_of(int geom) const {
     const int body = model_->geom_bodyid[geom];
     return body == 0 ? core::kFirstFace + static_cast<std::uint32_t>(geom) : static_cast<std::uint32_t>(body - 1);
@@ -194,7 +195,8 @@ class MujocoWorld final : public core::Dynamics {
     return sum;
   }
 
-  // No point of two boxes is deeper along a normal than the boxes overlap along it. Geoms lie where the step began.
+  // No point of two boxes can be deeper along a normal than the boxes overlap along it. Geoms are at the poses of the
+  // step's start.
   void note_depth(const mjContact& contact) {
     const int a = contact.geom1;
     const int b = contact.geom2;

@@ -23,8 +23,8 @@ struct MujocoOptions {
 };
 
 // Records states, and points where it can: not with Runge-Kutta, whose four evaluations of the contacts are mixed
-// inside the library. Detection is at the start of the step. `boxes` counts contacts of two boxes, and those that are
-// too deep.
+// inside the library. Detection is at the start of the step. `boxes` counts the contacts between two boxes, and how
+// many of them are too deep.
 std::unique_ptr<core::Dynamics> make_mujoco_world(const MujocoOptions& options, SharedDefectCounter boxes);
 
 std::string mujoco_build();  // "MuJoCo 2.2.2 (libmujoco.so.2.2.2), double"

@@ -1,4 +1,4 @@
-// The pipeline's working set on the CPU: one entry per body, and what is shared by bodies of one shape.
+// The pipeline's working set on the CPU: one entry per body, and the data that bodies of one shape share.
 #pragma once
 
 #include <cstdint>

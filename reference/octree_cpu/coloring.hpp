@@ -9,8 +9,9 @@
 
 namespace broadside::reference {
 
-// Color by color is the order of core::color_priority: a contact's color is one more than the largest of the earlier
-// contacts that share a written body with it. One fixed function of the set of pairs.
+// Applying contacts color by color has the effect of the order of core::color_priority: a contact's color is one more
+// than the largest color of the earlier contacts that share a written body with it. The coloring is one fixed function
+// of the set of pairs.
 class Coloring {
  public:
   // pairs: sorted. Bodies with never_written != 0 conflict with nothing. Afterwards order() lists their indices by

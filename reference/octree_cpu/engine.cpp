@@ -46,7 +46,7 @@ core::Result<core::Engine> create(const core::Settings& settings) {
   options.levels = *core::levels_named(settings.text("levels"));
   options.variant = *core::variant_named(settings.text("variant"));
   const unsigned long asked = settings.number("threads");
-  const int threads = asked == 0 ? 0 : worker_count(asked);  // oneTBB complains aloud of more than cores
+  const int threads = asked == 0 ? 0 : worker_count(asked);  // oneTBB warns if asked for more than the cores
   std::unique_ptr<core::BroadPhase> alone;
   // E2 and E7 are faults of the published scene octree, so they need broad=octree.
   const bool needs_octree = options.variant == core::Variant::kE2 || options.variant == core::Variant::kE7;

@@ -20,8 +20,9 @@ core::Box box_of(const Columns& c, std::uint32_t k) {
   return {{c.bounds[0][k], c.bounds[1][k], c.bounds[2][k]}, {c.bounds[3][k], c.bounds[4][k], c.bounds[5][k]}};
 }
 
-// The first box of a that overlaps one of b's; a.count when none does. A row of b's boxes is tested without a branch,
-// so that it becomes vector code; comparisons alone, so every instruction set gives the same answer.
+// The number of the first box of a that overlaps one of b's; a.count when none does. A row of b's boxes is tested
+// without a branch, so that it becomes vector code; only comparisons are used, so every instruction set gives the same
+// answer.
 #if defined(BROADSIDE_HAS_AVX2_KERNEL)
 __attribute__((target_clones("avx2", "default")))
 #endif

@@ -13,22 +13,22 @@
 
 namespace broadside::reference {
 
-// From the candidates of a broad phase, which already passed level 0.
+// Starts from the candidates of a broad phase, which already passed level 0.
 class LevelStage {
  public:
   void confirm(const Bodies& bodies, core::Levels levels, std::span<const core::Pair> candidates,
                std::vector<core::Pair>& confirmed);
 
-  // The published start: every pair of bodies, no broad phase before it. Two static bodies are no pair.
+  // The published start: tests every pair of bodies, with no broad phase before it. Two static bodies make no pair.
   void confirm_all(const Bodies& bodies, core::Levels levels, std::vector<core::Pair>& confirmed);
 
-  // Since reset_counts(). Sums of integers, so no thread order shows in them.
+  // Counts since reset_counts(). They are sums of integers, so they do not depend on the order of threads.
   [[nodiscard]] std::uint64_t pairs_tested() const { return pairs_tested_.load(std::memory_order_relaxed); }
   [[nodiscard]] std::uint64_t box_tests() const { return box_tests_.load(std::memory_order_relaxed); }
   void reset_counts() { pairs_tested_ = box_tests_ = 0; }
 
  private:
-  LeafBoxes leaf_boxes_;  // of the published start with level A
+  LeafBoxes leaf_boxes_;  // for the published start with level A
   std::vector<std::uint8_t> keep_;
   std::vector<std::vector<core::Pair>> rows_;
   std::atomic<std::uint64_t> pairs_tested_{0};

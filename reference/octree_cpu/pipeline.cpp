@@ -132,7 +132,7 @@ std::uint32_t Pipeline::groups() const {
   return groups;
 }
 
-// The broad phase's own work, then that of the level stage.
+// The counters of the broad phase, then those of the level stage.
 std::vector<core::Counter> Pipeline::counters() const {
   std::vector<core::Counter> counters;
   if (broad_phase_) counters = broad_phase_->counters();
@@ -157,7 +157,8 @@ std::uint64_t Pipeline::digest() const {
 void Pipeline::tell_octrees(core::FrameRecord& frame) {
   if (const auto* octree = dynamic_cast<const OctreeRecord*>(broad_phase_.get()))
     octree->tell_octree(frame.octree_nodes, frame.octree_node_of_body);
-  // Shapes do not change, so the first recorded frame has their octrees, however often it is read.
+  // Shapes do not change, so only the record of the first recorded step contains their octrees, however often it is
+  // read.
   if (!told_at_) told_at_ = steps_;
   if (*told_at_ != steps_) return;
   frame.shape_of_body = bodies_.shape;

@@ -27,13 +27,13 @@ struct PipelineOptions {
   Solver solver = Solver::kColored;
   core::Variant variant = core::Variant::kSound;
   bool has_vertex_stage = true;
-  // The broad phase is one that tells its octree (reference/scene_octree/octree_record.hpp): record it.
+  // The broad phase offers its octree (reference/scene_octree/octree_record.hpp): record it.
   bool records_octree = false;
   int threads = 0;  // 0 = all
 };
 
-// Bit-identical for any number of threads: every parallel loop writes to slots of its own, and what depends on an order
-// is done in a fixed one.
+// Bit-identical for any number of threads: every parallel loop writes to slots of its own, and work whose result
+// depends on an order is done in a fixed order.
 class Pipeline final : public core::Dynamics {
  public:
   explicit Pipeline(PipelineOptions options);
@@ -62,7 +62,7 @@ class Pipeline final : public core::Dynamics {
   std::unique_ptr<Threads> threads_;
   const core::Scene* scene_ = nullptr;
   Bodies bodies_;
-  std::vector<core::RecordHash> still_digest_;  // of each body: bodies translate only
+  std::vector<core::RecordHash> still_digest_;  // of each body: orientation and spin stay as given
   ResponseRules rules_;
   std::unique_ptr<core::BroadPhase> broad_phase_;
   LevelStage level_stage_;

@@ -14,8 +14,8 @@ namespace broadside::reference {
 
 class PipelineByMotion final : public core::Dynamics, public core::ChosenByScene {
  public:
-  // why_not_rigid: what forbids turning bodies, where a setting asks for something that METHOD alone has; else no
-  // error.
+  // why_not_rigid: the error for scenes whose bodies turn, where a setting asks for something that METHOD alone has;
+  // otherwise no error.
   PipelineByMotion(PipelineOptions translating, RigidPipelineOptions turning, core::Status why_not_rigid);
 
   core::Status load(const core::Scene& scene) override;
@@ -35,7 +35,7 @@ class PipelineByMotion final : public core::Dynamics, public core::ChosenByScene
   Pipeline translating_;
   RigidPipeline turning_;
   core::Status why_not_rigid_;
-  core::Dynamics* now_ = &translating_;  // of the scene that was loaded last
+  core::Dynamics* now_ = &translating_;  // the pipeline of the scene that was loaded last
 };
 
 }  // namespace broadside::reference

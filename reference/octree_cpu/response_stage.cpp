@@ -29,7 +29,7 @@ core::ContactGeometry geometry_now(const Bodies& bodies, const ResponseRules& ru
                            core::translated(bodies.local_box(p.j), bodies.state[p.j].x), rules.parameters.epsilon_m);
 }
 
-// Fills the contact from the pre states already in it.
+// Fills in the contact from the states before it, which it holds already.
 void respond_to(const Bodies& bodies, const ResponseRules& rules, Pair p, const core::ContactGeometry& geometry,
                 Contact& contact) {
   core::respond(contact, geometry, bodies.inverse_mass[p.i], bodies.inverse_mass[p.j],
@@ -92,8 +92,8 @@ void ResponseStage::resolve_bodies(Bodies& bodies, const ResponseRules& rules, s
   }
 }
 
-// Plain accumulation: every contact sees the state before any response, and its changes are added up in the order of
-// the pairs.
+// Plain accumulation: every contact starts from the states before any response, and the changes are added up in the
+// order of the pairs.
 void ResponseStage::resolve_jacobi(Bodies& bodies, const ResponseRules& rules, std::span<const Pair> touching) {
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, touching.size(), kContactsPerTask), [&](const auto& range) {
     for (std::size_t k = range.begin(); k != range.end(); ++k) {
@@ -127,9 +127,9 @@ void ResponseStage::resolve_jacobi(Bodies& bodies, const ResponseRules& rules, s
   }
 }
 
-// E8: the contacts of a body are applied in the order in which threads come, and the last write stays. Which contact a
-// thread takes next is drawn anew in each pass: a scheduler promises no order, but with few free cores it repeats the
-// same one.
+// E8: the contacts of a body are applied in the order in which threads reach them, and the last write stays. Which
+// contact a thread takes next is drawn anew in each pass: a scheduler promises no order, but with few free cores it
+// would repeat the same one.
 void ResponseStage::resolve_racing(Bodies& bodies, const ResponseRules& rules, std::span<const Pair> touching) {
   std::vector<std::size_t> taken(touching.size());
   std::iota(taken.begin(), taken.end(), std::size_t{0});

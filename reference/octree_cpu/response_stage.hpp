@@ -29,8 +29,8 @@ struct ResponseRules {
 
 class ResponseStage {
  public:
-  // touching: sorted pairs. Geometry is evaluated at the moment of application, from the boxes at the positions that
-  // earlier contacts left; a pair that no longer overlaps by then is no contact.
+  // touching: sorted pairs. Geometry is computed when a contact is applied, from the boxes at the positions that
+  // earlier contacts left; a pair that no longer overlaps by then makes no contact.
   void resolve_bodies(Bodies& bodies, const ResponseRules& rules, std::span<const core::Pair> touching);
   // The six faces of the domain, body by body, then the velocity clamp P(23).
   void resolve_faces(Bodies& bodies, const ResponseRules& rules);

@@ -1,4 +1,4 @@
-// Times the stages of a frame, one after another. Adds to what is there.
+// Times the stages of a frame, one after another. Times are added to those that are there.
 #pragma once
 
 #include <array>
@@ -13,7 +13,7 @@ namespace broadside::reference {
 class StageClock {
  public:
   explicit StageClock(std::array<core::StageTime, core::kStageCount>& times) : times_(times), last_(Clock::now()) {}
-  // Ends a stage: what passed since the end of the one before is its time.
+  // Ends a stage: its time is the time since the end of the stage before.
   void lap(core::Stage stage) {
     const auto now = Clock::now();
     core::StageTime& time = times_[static_cast<std::size_t>(stage)];

@@ -23,9 +23,9 @@ float axis_gap(const Box& a, const Box& b) {
   return gap;
 }
 
-// Finds the nearest pair by branch and bound over the octree's leaves and the boxes within them. Everything skipped is
-// at least as far as what is kept, in the rounded arithmetic too (see apart_by), so the result is that of trying every
-// pair of vertices.
+// Finds the nearest pair by branch and bound over the octree's leaves and the boxes within them. Every pair that is
+// skipped is at least as far apart as the one that is kept, in the rounded arithmetic too (see apart_by), so the result
+// is that of trying every pair of vertices.
 class NearestVertices {
  public:
   NearestVertices(const ShapeData& a, Vec3 xa, const ShapeData& b, Vec3 xb, float theta_m)
@@ -71,7 +71,7 @@ class NearestVertices {
     }
   }
 
-  // Two nodes within leaves. The larger is opened, so both shrink together.
+  // Two nodes within leaves. The larger node is opened, so both shrink together.
   void blocks(std::uint32_t node_a, const Box& box_a, std::uint32_t node_b, const Box& box_b) {
     const VertexBlocks::Node& a = a_.blocks.nodes[node_a];
     const VertexBlocks::Node& b = b_.blocks.nodes[node_b];

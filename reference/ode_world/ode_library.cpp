@@ -14,17 +14,18 @@
 namespace broadside::reference {
 namespace {
 
-// What ODE said since the last look. It reports through global functions; this thread's steps are this thread's words.
+// The LCP errors that ODE reported since this was cleared. ODE reports through global functions, so a report belongs to
+// the thread whose step caused it.
 thread_local std::uint64_t lcp_errors = 0;
 
 void hear_message(int, const char* text, va_list) {
   if (std::strstr(text, "LCP internal error") != nullptr) ++lcp_errors;
 }
 
-// A step that was left by an exception leaves jobs behind, which ODE would complain about when it is closed.
+// An exception that ends a step leaves ODE's jobs behind, about which ODE would complain when it is closed.
 std::atomic<bool> was_left_early = false;
 
-// ODE would end the program after either of these.
+// After either of these reports ODE would end the program.
 [[noreturn]] void hear_error(int, const char* text, va_list arguments) {
   was_left_early = true;
   char line[256];
@@ -32,7 +33,7 @@ std::atomic<bool> was_left_early = false;
   throw std::runtime_error(line);
 }
 
-// ODE's own state of the process: entered once, left when the program ends.
+// ODE's state for the whole process: initialized once, closed when the program ends.
 struct Library {
   Library() {
     dInitODE2(0);
@@ -45,7 +46,7 @@ struct Library {
   }
 };
 
-// Of a new world.
+// The default of a parameter, read from a new world.
 double default_of(dReal (*parameter)(dWorldID)) {
   enter_ode();
   const dWorldID world = dWorldCreate();

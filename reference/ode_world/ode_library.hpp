@@ -1,4 +1,4 @@
-// ODE's state of the process: entered once, asked what it said, and which library it is.
+// ODE's state for the whole process: initialization, the errors that it reported, and the version of the library.
 #pragma once
 
 #include <cstdint>
@@ -8,11 +8,11 @@
 
 namespace broadside::reference {
 
-// Before any other call of ODE on this thread. Its errors, which would end the program, are thrown as
+// Call it before any other call of ODE on this thread. ODE's errors, which would end the program, are thrown as
 // std::runtime_error.
 void enter_ode();
 
-// "LCP internal error"s that Dantzig's solver reported on this thread since they were forgotten.
+// The number of "LCP internal error"s that Dantzig's solver reported on this thread since it was last cleared.
 void forget_lcp_errors();
 std::uint64_t ode_lcp_errors();
 

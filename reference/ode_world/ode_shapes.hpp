@@ -12,7 +12,7 @@ struct dxSpace;
 
 namespace broadside::reference {
 
-// What geoms of a mesh refer to and do not own. Kept until they are gone.
+// Data of a mesh to which its geoms refer and which they do not own. It must be kept until the geoms are gone.
 struct OdeShape {
   Solid solid;
   std::vector<double> planes;  // convex: normal and offset of each triangle

@@ -20,9 +20,9 @@ namespace {
 using core::Status;
 using plain::Vec;
 
-// Points that two geoms may have; more are dropped by ODE. Its own demos take 8 for boxes and 64 for meshes.
+// The most points for two geoms; ODE drops further ones. Its own demos take 8 for boxes and 64 for meshes.
 constexpr int kMostPoints = 64;
-// A body that only translates: its inverse inertia is zero in any precision.
+// The inertia of a body that only translates: its inverse is zero in any precision.
 constexpr double kNeverTurns = 1e200;
 
 Vec vec(const dReal* v) {
@@ -36,7 +36,7 @@ plain::Quaternion product(plain::Quaternion p, plain::Quaternion q) {
           p.w * q.y - p.x * q.z + p.y * q.w + p.z * q.x, p.w * q.z + p.x * q.y - p.y * q.x + p.z * q.w};
 }
 
-// ODE's step divides by the length of normals.
+// ODE's step divides by the length of normals, so the length must not be zero.
 bool is_usable(const dContactGeom& c) {
   const auto squared = [](const dReal* v) { return v[0] * v[0] + v[1] * v[1] + v[2] * v[2]; };
   return std::isfinite(squared(c.pos)) && std::isfinite(c.depth) && std::abs(squared(c.normal) - 1.0) < 0.5;
@@ -60,7 +60,7 @@ struct World {
   dWorldID world = dWorldCreate();
   dSpaceID space = dHashSpaceCreate(nullptr);
   dJointGroupID joints = dJointGroupCreate(0);
-  std::vector<dBodyID> bodies;  // null for static ones
+  std::vector<dBodyID> bodies;  // null for static bodies
   std::vector<dGeomID> geoms;
   std::array<dGeomID, core::kFaceCount> faces{};
 
@@ -76,7 +76,7 @@ struct World {
   }
 };
 
-// A joint of this step and where its forces will be.
+// A contact joint of this step, and where ODE will write its forces.
 struct Touch {
   std::uint32_t first = 0;  // the body that moves, ODE's body 1
   std::uint32_t second = 0;
@@ -188,7 +188,7 @@ class OdeWorld final : public core::Dynamics {
     n[axis] = is_upper ? -1.0 : 1.0;
     const core::Box& d = scene_->domain;
     const double offset = is_upper ? -d.max[static_cast<int>(axis)] : d.min[static_cast<int>(axis)];
-    // Outside of the space: a plane's box is infinite, so every body would be its neighbor.
+    // Planes are created outside of the space: a plane's box is infinite, so every body would be its neighbor.
     world_->faces[face] = dCreatePlane(nullptr, n[0], n[1], n[2], offset);
   }
 
@@ -285,8 +285,8 @@ class OdeWorld final : public core::Dynamics {
   const core::Scene* scene_ = nullptr;
   WorldRecord record_;
   std::unique_ptr<World> world_;
-  std::deque<Touch> touches_;  // addresses stay while it grows
-  std::string strange_;        // what ODE found that no step can begin with
+  std::deque<Touch> touches_;  // a deque, so addresses stay valid while it grows
+  std::string strange_;        // the contact, found by ODE, with which no step can begin
   unsigned long seed_ = 0;
 };
 

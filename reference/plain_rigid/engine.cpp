@@ -73,7 +73,7 @@ core::Declaration declaration(const WorldOptions& options) {
        {"contacts", "totals"},
        {"integrator", "semi-implicit Euler, exact in free flight; Runge-Kutta 4 for orientation"},
        {"order", "1"},
-       // Each adds to a velocity forward, backward and along a conjugate direction.
+       // Each iteration changes a velocity three times: forward, backward, and along a conjugate direction.
        {"iterations", std::to_string(3 * options.iterations)},
        {"friction", "cone"},
        {"contact_model", "rigid"},

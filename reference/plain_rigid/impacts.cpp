@@ -13,7 +13,7 @@ namespace {
 // Relative: some hundred sweeps of float64 additions.
 constexpr double kRoundingOfSweeps = 0x1p-44;
 
-// Hits that are solved together, by their places in the list, and the bodies that move in them.
+// Hits that are solved together, as indices into the list, and the moving bodies that take part in them.
 struct Group {
   std::vector<std::size_t> hits;
   std::vector<std::uint32_t> bodies;
@@ -28,7 +28,7 @@ std::uint32_t root_of(std::vector<std::uint32_t>& parent, std::uint32_t i) {
   return i;
 }
 
-// In the order of each group's least body.
+// The groups are in the order of each group's least body.
 std::vector<Group> groups_of(const std::vector<SolverPoint>& hits, const std::vector<RigidBody>& bodies) {
   std::vector<std::uint32_t> parent(bodies.size());
   std::iota(parent.begin(), parent.end(), 0U);

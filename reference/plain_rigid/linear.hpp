@@ -69,7 +69,7 @@ inline Mat operator*(const Mat& a, const Mat& b) {
     out.row[i] = {dot(a.row[i], t.row[0]), dot(a.row[i], t.row[1]), dot(a.row[i], t.row[2])};
   return out;
 }
-// Of a matrix that can be inverted.
+// The inverse of a matrix that has one.
 inline Mat inverse(const Mat& m) {
   const Vec a = cross(m.row[1], m.row[2]);
   const Vec b = cross(m.row[2], m.row[0]);
@@ -91,14 +91,14 @@ inline Quaternion normalized(Quaternion q) {
   return {s * q.w, s * q.x, s * q.y, s * q.z};
 }
 
-// q moved by s times the rate of change that the angular velocity w (world) gives to `at`: dq/dt = (0, w) q / 2.
+// q changed by s times the rate of change that the angular velocity w (world) gives to `at`: dq/dt = (0, w) q / 2.
 inline Quaternion moved(Quaternion q, Quaternion at, Vec w, double s) {
   const double h = 0.5 * s;
   return {q.w - h * (w.x * at.x + w.y * at.y + w.z * at.z), q.x + h * (w.x * at.w + w.y * at.z - w.z * at.y),
           q.y + h * (w.y * at.w + w.z * at.x - w.x * at.z), q.z + h * (w.z * at.w + w.x * at.y - w.y * at.x)};
 }
 
-// The rotation matrix, also of a quaternion that is not quite unit.
+// The rotation matrix, also for a quaternion whose length is not quite 1.
 inline Mat matrix(Quaternion given) {
   const Quaternion q = normalized(given);
   return {{Vec{1 - 2 * (q.y * q.y + q.z * q.z), 2 * (q.x * q.y - q.w * q.z), 2 * (q.x * q.z + q.w * q.y)},

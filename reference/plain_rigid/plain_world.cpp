@@ -23,9 +23,9 @@ core::WideVec3 wide(Vec v) {
   return {v.x, v.y, v.z};
 }
 
-// A body that turns by more than this many rad in a step is integrated no better.
+// The most parts of a turn in one step: a body that turns by more than this many rad is not integrated more finely.
 constexpr double kMostParts = 1000.0;
-// By bodies: the points of two bodies lie together.
+// Order by bodies, so that the points of two bodies are next to each other.
 bool is_before(const SolverPoint& p, const SolverPoint& q) {
   return p.a != q.a ? p.a < q.a : p.b < q.b;
 }
@@ -115,7 +115,7 @@ void PlainWorld::add_faces(std::uint32_t a, double h) {
   }
 }
 
-// Sorted along x by boxes that are grown by what may close within h.
+// Boxes are grown by the distance that may close within h, and sorted along x.
 void PlainWorld::find_points(double h) {
   points_.clear();
   struct Reach {
@@ -169,8 +169,8 @@ void PlainWorld::solve_impacts(double h) {
   for (std::size_t k = 0; k < hits.size(); ++k) points_[index[k]].total_impulse = hits[k].total_impulse;
 }
 
-// What was struck may come farther within h than detection thought: then more points are found, at the same poses.
-// Those that were found before stay, with their impulses.
+// A struck body may move farther within h than detection assumed: then more points are found, at the same poses. Points
+// that were found before are kept, with their impulses.
 void PlainWorld::find_points_of_struck(double h) {
   const auto is_struck = [](const SolverPoint& p) { return dot(p.total_impulse, p.total_impulse) > 0.0; };
   if (std::none_of(points_.begin(), points_.end(), is_struck)) return;
@@ -198,8 +198,8 @@ void PlainWorld::accelerate(double h) {
     }
 }
 
-// A point takes over the impulses of the one that was nearest to it on A a step ago, so that what rests needs few
-// sweeps.
+// A point starts with the impulses of the point that was nearest to it on A in the step before, so that bodies at rest
+// need few sweeps.
 void PlainWorld::start_warm() {
   constexpr double kNear = 0.05;  // of the body's reach: farther ones are other corners
   for (SolverPoint& p : points_) {
@@ -248,7 +248,8 @@ void PlainWorld::solve_contacts(double h) {
     }
     p.finish_solve();
   }
-  // Sweeps gave and took from what touched nothing in the end: that is rounding, and goes.
+  // Sweeps gave impulses to bodies and took them back where nothing touches in the end. What remains is rounding, and
+  // is removed.
   for (std::size_t i = 0; i < bodies_.size(); ++i)
     if (is_touched_[i] == 0) bodies_[i].v = free[i].v, bodies_[i].angular_momentum = free[i].angular_momentum;
 }
@@ -262,9 +263,9 @@ void PlainWorld::move(double h) {
   }
 }
 
-// The classical Runge-Kutta method on dq/dt = (0, w(q)) q / 2 with the angular momentum constant.
-// In parts of at most 1 rad, slender bodies in shorter ones: a stage that turns by an angle t changes the spin about
-// the long axis by t^2 / 2 times the ratio of the moments.
+// The classical Runge-Kutta method on dq/dt = (0, w(q)) q / 2 with constant angular momentum. It takes parts of at most
+// 1 rad, shorter ones for slender bodies: a stage that turns by an angle t changes the spin about the long axis by t^2
+// / 2 times the ratio of the moments.
 void PlainWorld::turn(RigidBody& b, double step) {
   const double parts = std::max(1.0, std::ceil(step * length(b.angular_velocity()) * b.slenderness));
   for (double k = 0.0; k < parts && k < kMostParts; k += 1.0) turn_part(b, step / std::min(parts, kMostParts));
@@ -346,7 +347,7 @@ Status PlainWorld::read_back(core::FrameRecord& frame, core::RecordLevel level) 
     frame.velocity.push_back(core::narrowed(frame.wide.velocity[i]));
     frame.angular_velocity.push_back(core::narrowed(frame.wide.angular_velocity[i]));
   }
-  // SCHEMA.md: of what a trace records in float32; determinism compares the other fields themselves.
+  // SCHEMA.md defines the digest over the float32 values of a trace; determinism compares the other fields themselves.
   for (std::uint32_t i = 0; i < bodies_.size(); ++i)
     frame.digest +=
         core::body_digest(i, frame.position[i], frame.orientation[i], frame.velocity[i], frame.angular_velocity[i]);

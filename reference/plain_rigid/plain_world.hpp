@@ -1,5 +1,5 @@
-// A serial, float64, plainly right simulation of boxes, spheres and convex meshes that turn: a reference, and the
-// engine whose stages mutants replace one at a time.
+// A serial simulation in float64 of boxes, spheres and convex meshes that turn, written to be simple and right: a
+// reference, and the engine whose stages mutants replace one at a time.
 #pragma once
 
 #include <cstdint>
@@ -18,8 +18,8 @@ struct WorldOptions {
 
 // One step of h:
 //   1. points where bodies touch or may touch within h, at the poses of the start;
-//   2. impacts: bodies that meet faster than the scene's threshold rebound, before gravity acts; points that what was
-//      struck may now reach are added;
+//   2. impacts: bodies that meet faster than the scene's threshold rebound, before gravity acts; then points are
+//      added that the struck bodies may now reach;
 //   3. gravity, then impulses that keep bodies from moving into each other (speculative: the gap may close, no more);
 //   4. positions move with the mean velocity where nothing touched, so that free flight is exact, and with the last
 //      velocity where something did; orientations by the classical Runge-Kutta method, angular momentum constant;
@@ -43,7 +43,7 @@ class PlainWorld : public core::Dynamics {
   virtual void move(double h);
   virtual void turn(RigidBody& body, double step);
   virtual void separate();
-  // The last word on what is recorded.
+  // Called last; may change what is recorded.
   virtual void record(core::FrameRecord&) {}
 
   [[nodiscard]] const core::Scene& scene() const { return *scene_; }
@@ -68,7 +68,7 @@ class PlainWorld : public core::Dynamics {
   // How far any point of the body may come in h, m, with what gravity and wrenches add.
   [[nodiscard]] double farthest(const RigidBody& body, double h) const;
 
-  // What a point of the last step carried, where it lay on A.
+  // The impulses of a point of the last step, and where that point was on A.
   struct Carried {
     std::uint32_t a;
     std::uint32_t b;
@@ -83,7 +83,7 @@ class PlainWorld : public core::Dynamics {
   std::uint64_t sweeps_ = 0;
   std::vector<std::uint8_t> is_touched_;
   std::vector<Vec> velocity_before_gravity_;
-  // What detection saw at the start of the step, and its points.
+  // The states and boxes at the start of the step, and its points.
   core::FrameRecord detected_;
   std::vector<core::ContactPoint> recorded_;
 };

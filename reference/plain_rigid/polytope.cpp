@@ -25,7 +25,7 @@ void add_edges(Polytope& shape) {
   }
 }
 
-// The rim of a group of triangles: edges that no neighbor in the group has the other way round.
+// The boundary of a group of triangles: edges whose reverse belongs to no triangle of the group.
 std::vector<std::uint32_t> rim_of(const std::vector<core::Triangle>& group) {
   std::map<std::uint32_t, std::uint32_t> next;
   for (const core::Triangle& t : group)

@@ -24,9 +24,9 @@ struct Polytope {
 
 // A box about the origin.
 Polytope box_polytope(Vec half_extents);
-// Of a convex mesh (core::is_convex): triangles of one plane become one face.
+// Made from a convex mesh (core::is_convex): triangles of one plane become one face.
 Polytope polytope_of(const core::Mesh& mesh);
-// The same at a pose.
+// The same polytope at a pose.
 Polytope placed(const Polytope& shape, const Mat& rotation, Vec origin);
 
 }  // namespace broadside::reference::plain

@@ -28,17 +28,17 @@ struct RigidBody {
   Vec v;  // m/s
   // World frame, kg m^2/s. It is the state, and not the angular velocity, so that it is constant while nothing acts.
   Vec angular_momentum;
-  // The scene's wrenches, summed: constant in the world and in the body's axes.
+  // The sums of the scene's wrenches, constant in the world and in the body's axes.
   Vec force_world;   // N
   Vec force_body;    // N
   Vec torque_world;  // N m
   Vec torque_body;   // N m
-  Vec static_spin;   // rad/s: what the scene says of a static body, which never turns
+  Vec static_spin;   // rad/s: the scene's value for a static body, which never turns
 
   [[nodiscard]] bool is_sphere() const { return polytope == nullptr; }
   [[nodiscard]] bool is_static() const { return !(inverse_mass > 0.0); }
   [[nodiscard]] Mat rotation() const { return matrix(q); }
-  // Of the mesh: where its vertices' origin is.
+  // Where the origin of the mesh's vertices is.
   [[nodiscard]] Vec origin() const { return x - rotation() * center_of_mass; }
   [[nodiscard]] Vec world_spin(Vec momentum, Quaternion orientation) const {
     const Mat r = matrix(orientation);

@@ -10,7 +10,7 @@
 namespace broadside::reference::plain {
 namespace {
 
-// Faces of a convex mesh; more are another engine's work.
+// The most faces of a convex mesh; for more, use another engine.
 constexpr std::size_t kMostFaces = 200;
 
 core::Result<RigidBody> shape_of(const core::Scene& scene, std::uint32_t index) {

@@ -1,4 +1,4 @@
-// The bodies of a scene as plain-rigid has them.
+// The bodies of a scene in plain-rigid's form.
 #pragma once
 
 #include "core/result.hpp"
@@ -11,7 +11,8 @@ inline Vec vec(core::Vec3 v) {
   return {v.x, v.y, v.z};
 }
 
-// At its start, with its mass properties. A shape that the engine has not is an error that says "unsupported".
+// The body at the scene's start, with its mass properties. For a shape that plain-rigid lacks, an error that says
+// "unsupported".
 core::Result<RigidBody> body_of(const core::Scene& scene, std::uint32_t index, const core::MassProperties& mass);
 
 }  // namespace broadside::reference::plain

@@ -44,7 +44,7 @@ struct Row {
   Side a;
   Side b;
   double normal_mobility = 0.0;
-  double tangent_mobility = 0.0;  // of the least movable tangent direction: a step never overshoots
+  double tangent_mobility = 0.0;  // of the tangent direction that yields least: so a step never overshoots
 
   [[nodiscard]] Vec relative() const { return speed(a) - speed(b); }
   void apply(Vec impulse) const {
@@ -68,8 +68,9 @@ Row row_of(SolverPoint& p, std::vector<RigidBody>& bodies) {
   return row;
 }
 
-// keeps_sliding: what slid in the sweep before slides in this one too. Between two coefficients of friction the sweeps
-// would not settle otherwise. Returns how fast it had to change the point's velocity, m/s.
+// keeps_sliding: a point that slid in the sweep before slides in this one too. Otherwise sweeps would not settle,
+// because a point would change between its two coefficients of friction. Returns by how much the point's velocity had
+// to change, m/s.
 double solve(const Row& row, bool keeps_sliding) {
   SolverPoint& p = *row.point;
   const Vec n = p.at.normal;
@@ -114,7 +115,7 @@ class Directions {
     for (std::size_t k = 0; k < rows_.size(); ++k) before_[k] = impulse_of(*rows_[k].point);
   }
 
-  // Goes on along the last direction as far as the last two sweeps suggest, or begins anew.
+  // Continues along the last direction as far as the last two sweeps suggest, or restarts the directions.
   void follow() {
     double size = 0.0;
     std::vector<Vec> step(rows_.size());
@@ -159,7 +160,7 @@ std::uint32_t solve_velocities(std::vector<SolverPoint>& points, std::vector<Rig
   Directions directions(rows);
   for (std::uint32_t k = 1; k <= iterations; ++k) {
     directions.begin_sweep();
-    // The last word is a sweep's: it leaves every impulse in its cone.
+    // A sweep comes last: it leaves every impulse within its cone.
     if (sweep(rows, 2 * k >= iterations) <= kDone * fastest || k == iterations) return k;
     directions.follow();
   }
@@ -168,8 +169,8 @@ std::uint32_t solve_velocities(std::vector<SolverPoint>& points, std::vector<Rig
 
 void correct_positions(const std::vector<SolverPoint>& points, std::vector<RigidBody>& bodies,
                        const SolverOptions& options) {
-  // The points of two bodies lie together: the deepest of them says how far these bodies are moved. Bodies are moved
-  // and never turned.
+  // The points of two bodies are next to each other: the deepest of them says how far these bodies are moved apart.
+  // Bodies are moved and never turned.
   for (std::size_t first = 0, last = 0; first < points.size(); first = last) {
     const SolverPoint* deepest = &points[first];
     for (last = first; last < points.size() && points[last].a == points[first].a && points[last].b == points[first].b;

@@ -77,7 +77,7 @@ double lowest(const Polytope& shape, Vec n) {
   return least;
 }
 
-// Of the normals of faces, the direction with the largest gap.
+// The direction with the largest gap among the normals of faces.
 Separation widest_face(const Polytope& a, const Polytope& b) {
   Separation best;
   for (const PolytopeFace& f : a.faces) {
@@ -91,7 +91,7 @@ Separation widest_face(const Polytope& a, const Polytope& b) {
   return best;
 }
 
-// Of the directions across an edge of each.
+// The direction with the largest gap among those across an edge of each body.
 Separation widest_edges(const Polytope& a, const Polytope& b) {
   Separation best;
   for (const Vec u : a.directions)
@@ -122,7 +122,7 @@ std::vector<Vec> clipped(const std::vector<Vec>& polygon, Vec n, double limit) {
   return kept;
 }
 
-// The face of the other polytope that looks most against `face`, clipped by the sides of this one.
+// The face of the other polytope that is turned most toward `face`, clipped by the sides of `face`.
 void face_points(const Polytope& own, const PolytopeFace& face, const Polytope& other, Vec normal, double reach,
                  std::vector<NearPoint>& out) {
   const auto incident =
@@ -158,8 +158,8 @@ std::pair<Vec, Vec> farthest_edge(const Polytope& shape, Vec d, Vec n) {
   return best;
 }
 
-// The middle of the shortest way between the two edges that face each other. Nothing where that way is not along the
-// normal: then the edges pass each other, and a face is what is nearest.
+// The middle of the shortest connection between the two edges that face each other. Nothing where that connection is
+// not along the normal: then the edges pass each other, and a face is nearest.
 std::optional<NearPoint> edge_point(const Polytope& a, const Polytope& b, const Separation& best, double size) {
   constexpr double kBeside = 1e-6;
   const auto [p, p_end] = farthest_edge(a, best.direction_of_a, -best.normal);

@@ -1,4 +1,4 @@
-// An array as a plug-in sees it: in its memory, guarded, grown when needed.
+// An array that a plug-in reads or fills: in memory where the plug-in wants it, guarded, grown when needed.
 #pragma once
 
 #include <cstddef>
@@ -35,13 +35,14 @@ class PluginInput {
   std::unique_ptr<core::MemoryBlock> block_;
 };
 
-// What a plug-in fills. Elements start as bytes 0xFF, so that those it only claims to have written are found.
+// An output, which a plug-in fills. Elements start as bytes 0xFF, so that elements that it only claims to have written
+// are found.
 template <typename T>
 class PluginOutput {
  public:
   explicit PluginOutput(core::MemorySpace& space) : space_(&space) {}
 
-  // A block of exactly `count` elements: what is behind them cannot be written.
+  // A block of exactly `count` elements; memory behind them cannot be written.
   core::Result<T*> room_for(std::size_t count) {
     block_.reset();
     auto block = space_->allocate(count * sizeof(T));
@@ -49,7 +50,7 @@ class PluginOutput {
     block_ = std::move(block).value();
     const std::vector<unsigned char> blank(block_->bytes(), 0xFF);
     if (core::Status status = block_->upload(blank.data(), blank.size()); !status) return status.error();
-    // The block's end is the guard, so the elements lie at its end.
+    // The guard begins at the block's end, so the elements are placed at its end.
     return reinterpret_cast<T*>(static_cast<unsigned char*>(block_->data()) + (block_->bytes() - count * sizeof(T)));
   }
 
@@ -72,7 +73,8 @@ struct Read {
   std::uint64_t demanded = 0;
 };
 
-// Asks with room for `guess` elements, and once more when it was too little. read(out, capacity, &demanded): a Status.
+// Asks with room for `guess` elements, and once more when that was too little. read(out, capacity, &demanded): a
+// Status.
 template <typename T, typename ReadFunction>
 core::Result<Read<T>> read_all(core::MemorySpace& space, std::size_t guess, ReadFunction&& read) {
   PluginOutput<T> output(space);

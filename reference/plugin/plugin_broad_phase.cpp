@@ -14,7 +14,7 @@ using core::Status;
 
 static_assert(sizeof(core::Box) == sizeof(broadside_box) && sizeof(core::Pair) == sizeof(broadside_pair));
 
-// Absurd counts are refused before memory is asked for: no set of n boxes has more pairs.
+// Absurd counts are refused before memory is allocated: no set of n boxes has more pairs.
 std::uint64_t most_pairs(std::uint64_t n) {
   return n < 2 ? 0 : n * (n - 1) / 2;
 }

@@ -1,4 +1,4 @@
-// A simulation by a plug-in of version 1 of the interface. States are recorded, and contacts where it gives them.
+// A simulation by a plug-in of version 1 of the interface. Records states, and contacts where the plug-in gives them.
 #include "reference/plugin/plugin_dynamics.hpp"
 
 #include <algorithm>
@@ -93,7 +93,7 @@ class PluginDynamics final : public core::Dynamics {
         *host_, contact_room_, [&](broadside_contact* out, std::size_t room, std::uint64_t* demanded) -> Status {
           Status status =
               instance_->checked(table().read_contacts(instance_->self(), out, room, demanded), "read_contacts");
-          // More than 4 GiB of contacts is taken for a wrong count.
+          // More than 4 GiB of contacts is treated as a wrong count.
           if (status.ok() && *demanded > (std::uint64_t{1} << 32) / sizeof(broadside_contact))
             return fault("it demands room for " + std::to_string(*demanded) + " contacts");
           return status;

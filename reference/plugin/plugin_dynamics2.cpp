@@ -1,5 +1,5 @@
 // A simulation by an untrusted plug-in of version 2, or by a program. States are float64; points, contacts, detection
-// and pairs are recorded where it gives them.
+// and pairs are recorded where the engine gives them.
 #include "reference/plugin/plugin_dynamics2.hpp"
 
 #include <algorithm>
@@ -103,13 +103,13 @@ class PluginDynamics2 final : public core::Dynamics, public core::OwnStepTime {
     return std::move(got).value().values;
   }
 
-  // As many rows as it says, which fit the room at the second call.
+  // As many rows as the engine reports; at the second call they must fit the room.
   template <typename Row>
   core::Result<std::vector<Row>> rows_of_step(int (*read)(void*, Row*, std::uint64_t, std::uint64_t*), const char* call,
                                               std::size_t& room_before) {
     auto got = read_all<Row>(*host_, room_before, [&](Row* out, std::size_t room, std::uint64_t* demanded) -> Status {
       Status status = instance_->checked(read(instance_->self(), out, room, demanded), call);
-      // More than 4 GiB is taken for a wrong count.
+      // More than 4 GiB is treated as a wrong count.
       if (status.ok() && *demanded > (std::uint64_t{1} << 32) / sizeof(Row))
         return fault(call, "it demands room for " + std::to_string(*demanded) + " rows");
       return status;

@@ -7,7 +7,7 @@
 
 namespace broadside::reference {
 
-// Of version 2 of the interface.
+// The dynamics of an engine of version 2 of the interface.
 std::unique_ptr<core::Dynamics> make_plugin_dynamics2(std::shared_ptr<PluginInstance> instance);
 
 }  // namespace broadside::reference

@@ -1,4 +1,4 @@
-// An engine of somebody else: a shared library or a program that the user named.
+// An engine from outside this tree: a shared library or a program that the user named.
 #pragma once
 
 #include <memory>
@@ -11,7 +11,7 @@
 
 namespace broadside::reference {
 
-// What a plug-in says about itself, without the library: safe to hold in a process that never loads it.
+// The description that a plug-in gives of itself, without the library: safe to hold in a process that never loads it.
 struct PluginDescription {
   struct Setting {
     std::string key;
@@ -34,7 +34,7 @@ bool is_program(std::string_view given);
 // may crash it, and a bad program may hang.
 core::Result<PluginDescription> describe_plugin(const std::string& given);
 
-// The engine itself. `space` is where a library wants its arrays. Settings: those of the description, by key.
+// Creates the engine. `space`: where a library wants its arrays. Settings: those of the description, by key.
 core::Result<core::Engine> create_plugin_engine(const std::string& given, const core::Settings& settings,
                                                 const std::shared_ptr<core::MemorySpace>& space);
 

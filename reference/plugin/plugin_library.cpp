@@ -48,7 +48,7 @@ std::string PluginLibrary::take(const broadside_engine& given) {
   return {};
 }
 
-// A later header may know more functions, and an earlier one fewer: what both know is taken.
+// A later header may have more functions, and an earlier one fewer: the functions that both have are taken.
 std::string PluginLibrary::take(const broadside_engine2& given) {
   constexpr std::size_t kLeast = offsetof(broadside_engine2, end) + sizeof given.end;  // of the first version 2
   if (given.abi == BROADSIDE_ENGINE_ABI_2 && given.size < kLeast)

@@ -26,7 +26,7 @@ class PluginLibrary final : public PluginSource {
 
  private:
   explicit PluginLibrary(void* handle) : handle_(handle) {}
-  // What is wrong with what the entries returned; empty when nothing is.
+  // The fault of the tables that the entries returned; empty when there is none.
   std::string take(const broadside_engine& table);
   std::string take(const broadside_engine2& table);
 

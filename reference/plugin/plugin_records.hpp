@@ -1,4 +1,4 @@
-// Rows of the C interface as rows of a frame, and what is wrong with those that no trace may hold.
+// Rows of the C interface as rows of a frame, and the fault of rows that no trace may hold.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,7 @@
 
 namespace broadside::reference {
 
-// Rooms for rows are filled with bytes 0xFF before they are written.
+// Whether a row was left as it was: room for rows is filled with bytes 0xFF before a plug-in writes to it.
 template <typename Row>
 bool is_unwritten(const Row& row) {
   unsigned char blank[sizeof(Row)];
@@ -27,7 +27,7 @@ core::Contact contact_from_c(const broadside_contact& contact);
 
 // "is between 3 and 9, and there are 4 bodies"; empty when both exist and differ.
 std::string fault_of_bodies(std::uint32_t a, std::uint32_t b, std::uint32_t body_count);
-// The same, and numbers that are not finite.
+// The same, and the fault of numbers that are not finite.
 std::string fault_of_point(const broadside_point& point, std::uint32_t body_count);
 
 }  // namespace broadside::reference

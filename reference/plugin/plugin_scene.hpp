@@ -1,4 +1,4 @@
-// A scene in the C interface's structs. Points into the scene: keep both.
+// A scene in the C interface's structs. They point into the scene: keep both.
 #pragma once
 
 #include <vector>

@@ -17,7 +17,7 @@ void to_c(double (&to)[3], core::Vec3 v) {
   to[2] = v.z;
 }
 
-// By the words of core/scene/primitive.hpp.
+// The kinds of core/scene/primitive.hpp by name.
 constexpr std::array<std::pair<std::string_view, std::uint32_t>, 4> kKinds{{{"box", BROADSIDE_BOX},
                                                                             {"sphere", BROADSIDE_SPHERE},
                                                                             {"capsule", BROADSIDE_CAPSULE},

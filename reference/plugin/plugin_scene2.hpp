@@ -1,4 +1,4 @@
-// A scene in the structs of version 2 of the C interface. Points into the scene: keep both.
+// A scene in the structs of version 2 of the C interface. They point into the scene: keep both.
 #pragma once
 
 #include <memory>

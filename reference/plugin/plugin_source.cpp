@@ -29,7 +29,7 @@ bool is_text(const char* text) {
   return text != nullptr && core::is_plain_text(text);
 }
 
-// All functions of a group are there, or none.
+// Whether all functions of a group are there, or none.
 template <typename... Functions>
 bool is_whole(Functions... functions) {
   const int there = (0 + ... + (functions != nullptr ? 1 : 0));
@@ -41,7 +41,7 @@ std::string version_fault(std::uint32_t spoken, std::uint32_t known) {
          std::to_string(known);
 }
 
-// What both versions have.
+// Checks the fields that both versions have.
 template <typename Table>
 std::string fault_of_either(const Table& e) {
   if (!is_good_id(e.id)) return "its id is not 1 to 32 of a-z, 0-9 and -";
@@ -67,7 +67,7 @@ std::string_view declared(const broadside_engine2& e, std::string_view key) {
   return {};
 }
 
-// A value as it is, or that of the setting which it names.
+// A declared value, or the value of the setting that it names.
 core::Result<std::string> value_of(const broadside_engine2& e, const broadside_declared& one, const std::string& where,
                                    const core::Settings* settings) {
   constexpr std::string_view kSetting = "setting:";
@@ -81,7 +81,7 @@ core::Result<std::string> value_of(const broadside_engine2& e, const broadside_d
                "name one of its settings"};
 }
 
-// Laws choose by the declaration what they read, so it must say what is there.
+// Laws decide by the declaration which records they read, so it must agree with the functions that are there.
 std::string fault_of_contacts(const broadside_engine2& e) {
   const std::string_view contacts = declared(e, "contacts");
   const bool declares_points = contacts == "totals" || contacts == "geometry";

@@ -1,5 +1,5 @@
-// Where an engine of somebody else comes from: a shared library or a program. Both are seen as the function table of
-// version 2 of the C interface.
+// Where an engine from outside this tree comes from: a shared library or a program. Both appear as the function table
+// of version 2 of the C interface.
 #pragma once
 
 #include <cstdint>
@@ -24,15 +24,15 @@ class PluginSource {
  public:
   virtual ~PluginSource() = default;
 
-  // Of a library of version 1 without the functions that take or give structs of version 2.
+  // For a library of version 1, the functions that take or give structs of version 2 are missing.
   [[nodiscard]] virtual const broadside_engine2& table() const = 0;
   // The table of a library that speaks version 1 alone; null otherwise.
   [[nodiscard]] virtual const broadside_engine* version1() const { return nullptr; }
-  // What table()'s create does. values[k] belongs to settings[k].
+  // Does what table()'s create does. values[k] belongs to settings[k].
   [[nodiscard]] virtual core::Result<void*> create(const std::vector<std::uint64_t>& values) const = 0;
-  // Seconds of the last step by the engine's own clock; NaN where it does not tell.
+  // Seconds of the last step by the engine's own clock; NaN where the engine does not report them.
   [[nodiscard]] virtual double last_step_s(void*) const { return std::numeric_limits<double>::quiet_NaN(); }
-  // Whether calls go through a pipe, and so do the times that are measured here.
+  // Whether calls go through a pipe, so that times measured here include it.
   [[nodiscard]] virtual bool is_behind_a_pipe() const { return false; }
   [[nodiscard]] virtual bool tells_step_seconds() const { return false; }
 
@@ -41,14 +41,14 @@ class PluginSource {
   [[nodiscard]] bool offers_dynamics() const;
   // "broad narrow dynamics", for listings.
   [[nodiscard]] std::string capabilities() const;
-  // Of the dynamics with these settings, null for the defaults: a declared value "setting:KEY" is the value of the
-  // setting KEY. A library of version 1 declares nothing, and the laws of METHOD are held against it, as before there
-  // were declarations.
+  // The declaration of the dynamics with these settings, null for the defaults: a declared value "setting:KEY" is the
+  // value of the setting KEY. A library of version 1 declares nothing, and the laws of METHOD are applied to it, as
+  // before there were declarations.
   [[nodiscard]] core::Result<core::Declaration> declaration(const std::string& where,
                                                             const core::Settings* settings = nullptr) const;
 };
 
-// What is wrong with the table; empty when nothing is. Everything that other functions here rely on.
+// The fault of the table; empty when there is none. Checks everything that other functions here rely on.
 std::string fault_of(const broadside_engine2& table);
 std::string fault_of(const broadside_engine& table);
 

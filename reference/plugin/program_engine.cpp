@@ -23,7 +23,7 @@ using core::ProgramCall;
 using core::ProgramHello;
 using core::Status;
 
-// A running program and what it said last.
+// A running program and its last error.
 class ProgramEngine {
  public:
   explicit ProgramEngine(ProgramProcess process) : process_(std::move(process)) {}
@@ -34,7 +34,7 @@ class ProgramEngine {
       return Error{"its input has more than 4 GiB", "", "run a smaller scene", Exit::kMissing};
     if (Status s = process_.send(core::request(call, payload)); !s) return s.error();
     std::array<std::byte, 8> bytes{};
-    // The length alone shows a text that somebody printed, also where no more comes.
+    // The length alone shows that the program printed some text into the protocol, also where nothing follows.
     if (Status s = process_.receive(std::span(bytes).first(4)); !s) return s.error();
     if (core::MessageReader(std::span(bytes).first(4)).get<std::uint32_t>() > most_bytes + core::kMostTextBytes + 8)
       return core::read_answer_head(bytes, most_bytes).error();
@@ -49,7 +49,7 @@ class ProgramEngine {
     return Error{why.empty() ? "it failed without a word" : why, "", "", Exit::kMissing};
   }
 
-  // A call of the table.
+  // Makes a call of the table.
   int call(ProgramCall call, const MessageWriter& payload) {
     auto answer = ask(call, payload, 0);
     return answer.ok() ? BROADSIDE_OK : failed(answer.error());

@@ -1,4 +1,5 @@
-// An engine that is a program, as the source of a function table whose functions talk to it: core/plugin/PROGRAMS.md.
+// An engine that is a program, as the source of a function table whose functions exchange messages with it:
+// core/plugin/PROGRAMS.md.
 #pragma once
 
 #include <memory>
@@ -9,8 +10,8 @@
 
 namespace broadside::reference {
 
-// Starts the program and asks it what it is. Call it only in a child process with a time limit: a program may hang.
-// `command` is what stands behind --engine. Errors: it cannot be started, ends, or answers something else.
+// Starts the program and asks for its description. Call it only in a child process with a time limit: a program may
+// hang. `command` is the text after --engine. Errors: the program cannot be started, ends, or answers something else.
 core::Result<std::shared_ptr<const PluginSource>> open_program(std::string_view command);
 
 }  // namespace broadside::reference

@@ -22,13 +22,13 @@ using core::Status;
 
 constexpr int kPolls = 100;              // while waiting for an end
 constexpr useconds_t kPoll_us = 10'000;  // together a second
-constexpr int kNoProgram = 127;          // as shells say it
+constexpr int kNoProgram = 127;          // the code that shells use
 
 bool is_blank(char c) {
   return c == ' ' || c == '\t';
 }
 
-// A word from the front of the text, which does not begin with a blank.
+// Takes a word from the front of the text, which does not begin with a blank.
 core::Result<std::string> take_word(std::string_view& text) {
   std::string word;
   char quote = '\0';
@@ -110,7 +110,7 @@ core::Result<ProgramProcess> ProgramProcess::start(const std::vector<std::string
     close_all();
     return Error{std::string("no pipe: ") + std::generic_category().message(errno), words[0], "", Exit::kInternal};
   }
-  signal(SIGPIPE, SIG_IGN);  // a program that ended is an error of send
+  signal(SIGPIPE, SIG_IGN);  // send then returns an error for a program that has ended
   const pid_t parent = getpid();
   const pid_t child = fork();
   if (child == 0) become(argv.data(), parent, in.from, out.to, failure.to);

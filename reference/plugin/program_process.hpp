@@ -13,8 +13,8 @@
 
 namespace broadside::reference {
 
-// "node 'my engine.mjs' --fast" as words, by a shell's rules for blanks, quotes and backslashes; nothing is expanded.
-// The error: no word, or a quote that does not end.
+// "node 'my engine.mjs' --fast" split into words, by a shell's rules for blanks, quotes and backslashes; nothing is
+// expanded. The error: there is no word, or a quote does not end.
 core::Result<std::vector<std::string>> words_of(std::string_view command);
 
 class ProgramProcess {

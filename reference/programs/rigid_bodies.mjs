@@ -1,4 +1,4 @@
-// What every program of this folder does with a scene before it calls its library: vectors, turns, principal axes, and
+// Functions that every program of this folder needs before it calls its library: vectors, turns, principal axes, and
 // states of the center of mass. Arrays of numbers; quaternions are w x y z as in broadside_engine_v2.h.
 
 export const add = (a, b) => a.map((x, k) => x + b[k]);
@@ -29,7 +29,7 @@ export function facesOf(scene) {
   });
 }
 
-// Throws for a scene that the library cannot hold as it is: no other shape is taken in silence.
+// Throws for a scene that the library cannot represent as it is: no other shape is used silently.
 export function refuse(scene, { shapes, library }) {
   for (const body of scene.bodies) {
     const kind = scene.shapes[body.mesh].kind;
@@ -62,14 +62,14 @@ export function principal([xx, yy, zz, xy, xz, yz]) {
   return { moments: [a[0][0], a[1][1], a[2][2]], axes: q };
 }
 
-// A row of contact for `readPoints`, turned so that a is the lower body: the normal points from b to a, the impulse (N s) acts
-// on a. Libraries that do not tell impulses leave it out, and declare contacts = geometry.
+// A row of contact for `readPoints`, ordered so that a is the lower body: the normal points from b to a, the impulse (N
+// s) acts on a. Libraries that do not give impulses leave it out, and declare contacts = geometry.
 export function pointOf(a, b, { point, normal, gap, impulse = [0, 0, 0] }) {
   const isTurned = a > b, sign = isTurned ? -1 : 1;
   return { a: isTurned ? b : a, b: isTurned ? a : b, point, normal: scaled(sign, normal), gap, impulse: scaled(sign, impulse), feature: 0, reserved: 0 };
 }
 
-// One coefficient for libraries that know no other: that of sliding.
+// The friction coefficient for libraries that have only one: that of sliding.
 export const frictionOf = (body) => body.mu_kinetic;
 export const wrenchesOf = (scene, body, q) => {
   const sum = { force: [0, 0, 0], torque: [0, 0, 0] };

@@ -33,7 +33,7 @@ void stop_at_any_speed(StagedPipeline& p, float dt_s) {
   }
 }
 
-// Finds no contact between bodies. Otherwise one might be found by chance, because the parts of a step are so short
+// Finds no contact between bodies. If it did, one might be found by chance, because the parts of a step are so short
 // that a fast ball may be inside the plate at the end of one.
 void touch_nobody(StagedPipeline& /*p*/) {}
 

@@ -15,8 +15,8 @@ namespace broadside::reference {
 struct RigidMutant {
   std::string_view name;   // "no-gyroscopic-term"
   std::string_view what;   // what is wrong, in a few words
-  std::string_view law;    // meant for
-  std::string_view scene;  // where it shows: bench/mutants/rigid_scenes
+  std::string_view law;    // the law that must reject it
+  std::string_view scene;  // a scene in which the fault shows: bench/mutants/rigid_scenes
   RigidStages stages;
   bool differs_from_run_to_run = false;
   // The twin's stages, for pipeline_mutants() and rest_mutants(), which leave the stages above alone.
@@ -28,7 +28,7 @@ struct RigidMutant {
 std::span<const RigidMutant> flight_mutants();   // how bodies move and turn while they touch nothing
 std::span<const RigidMutant> touch_mutants();    // where bodies touch, and what keeps them apart
 std::span<const RigidMutant> impulse_mutants();  // impulses and friction
-std::span<const RigidMutant> telling_mutants();  // right motion, told wrongly
+std::span<const RigidMutant> telling_mutants();  // right motion, recorded wrongly
 // A fifth, of octree-cpu where bodies turn: each of its stages is broken at least once.
 std::span<const RigidMutant> pipeline_mutants();
 // A sixth, of its stages that are off by default: sleep, and the sweep of fast bodies.

@@ -41,7 +41,7 @@ class StagedPipeline final : public RigidPipeline {
   // Number of the step that is being computed, from 1.
   [[nodiscard]] std::uint64_t step_number() const { return steps() + 1; }
 
-  // Stages that a replaced one may call, and what they work on.
+  // The right stages, which a replaced one may call, and the data that they work on.
   void sound_place(float dt_s) { RigidPipeline::place(dt_s); }
   core::Status sound_find_candidates() { return RigidPipeline::find_candidates(); }
   void sound_confirm() { RigidPipeline::confirm(); }

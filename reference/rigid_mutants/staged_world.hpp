@@ -36,7 +36,7 @@ class StagedWorld final : public plain::PlainWorld {
   // Number of the step that is being computed, from 1.
   [[nodiscard]] std::uint64_t step_number() const { return steps() + 1; }
 
-  // Stages that a replaced one may call, and what they work on.
+  // The right stages, which a replaced one may call, and the data that they work on.
   void sound_find_points(double h) { PlainWorld::find_points(h); }
   void sound_solve_impacts(double h) { PlainWorld::solve_impacts(h); }
   void sound_accelerate(double h) { PlainWorld::accelerate(h); }

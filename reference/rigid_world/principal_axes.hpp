@@ -1,4 +1,4 @@
-// Axes in which an inertia is diagonal, for engines that keep three moments a body.
+// Axes in which an inertia is diagonal, for engines that store three moments for each body.
 #pragma once
 
 #include "reference/plain_rigid/linear.hpp"

@@ -1,4 +1,4 @@
-// What an engine of rigid bodies records for a frame: states in float64, and the totals of its points of contact.
+// The record of an engine of rigid bodies for a frame: states in float64, and the totals of its contact points.
 #pragma once
 
 #include <cstdint>
@@ -21,14 +21,14 @@ class WorldRecord {
 
   // Call before a step: the present state becomes the pose of detection, and the points of the last step are removed.
   void begin_step();
-  // A point of contact of bodies or faces a and b, with the impulse (N s) of the whole step on a, and its normal from b
-  // to a. The order is changed here so that A is the lower body. `gap_m`: negative is penetration.
+  // A contact point of bodies or faces a and b, with the impulse (N s) of the whole step on a, and its normal from b to
+  // a. If b is the lower body, the two are exchanged here. `gap_m`: negative is penetration.
   void add_point(std::uint32_t a, std::uint32_t b, plain::Vec point, plain::Vec normal, double gap_m,
                  plain::Vec impulse);
   // The broad phase's boxes at detection, one per body, for engines that expose them; such engines record kDetection.
   void set_boxes(std::vector<core::Box> boxes) { boxes_ = std::move(boxes); }
 
-  // Bodies that translate keep the orientation that they were given, bit by bit.
+  // Bodies that translate keep their given orientation, bit by bit.
   core::Status read_back(core::FrameRecord& frame, core::RecordLevel level);
 
  private:

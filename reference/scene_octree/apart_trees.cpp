@@ -22,7 +22,7 @@ void gather(std::span<const Box> boxes, std::span<const std::uint32_t> ids, std:
   });
 }
 
-// A box that is no number equals none, so it is seen as changed as often as it comes.
+// A box with NaN equals none, so it counts as changed in every frame.
 bool are_as_before(std::span<const Box> boxes, std::span<const std::uint32_t> ids, const std::vector<Box>& before) {
   return tbb::parallel_reduce(
       tbb::blocked_range<std::size_t>(0, ids.size(), kIdGrain), true,
@@ -57,7 +57,8 @@ bool ApartTrees::build_static(std::span<const Box> boxes) {
     return true;
   }
   gather(boxes, static_ids_, static_boxes_);
-  // Its boxes are static for those who look at them from here; none of them looks.
+  // Moving boxes search this tree and see its boxes as static; the tree itself is not searched for pairs of its own
+  // boxes.
   has_static_tree_ = static_.build(static_boxes_, std::vector<std::uint8_t>(static_ids_.size(), 1));
   if (!has_static_tree_) return false;
   static_.renumber(static_ids_);

@@ -1,6 +1,6 @@
-// Static and moving boxes apart: a world of many static boxes and fewer moving ones costs each frame what the moving
-// ones cost. The static tree is built once and kept for as long as its boxes stay the same, which is looked at in every
-// frame; moving boxes look for partners among themselves and in it. Two static boxes are never tested.
+// Static and moving boxes in separate trees: where many boxes are static, a frame costs what the moving ones cost. The
+// static tree is built once and kept for as long as its boxes stay the same, which is checked in every frame. Moving
+// boxes look for partners among themselves and in the static tree. Two static boxes are never tested.
 #pragma once
 
 #include <cstdint>
@@ -14,20 +14,21 @@
 
 namespace broadside::reference {
 
-// Whether it is worth while: an eighth of the boxes is static, and of fewer boxes a build takes microseconds.
+// Whether separate trees are worth while: at least an eighth of the boxes must be static, and there must be enough
+// boxes, because building a small tree takes microseconds.
 bool is_worth_keeping_apart(std::span<const std::uint8_t> is_static);
 
 // Keeps its memory between calls. Works in the caller's oneTBB arena.
 class ApartTrees {
  public:
-  // Which boxes are static, before the first build with them.
+  // Says which boxes are static. Call it before the first build with them.
   void start(std::span<const std::uint8_t> is_static);
-  // False when a box is not finite or inside out. As many boxes as start() was told of.
+  // False when a box is not finite or inside out. There must be as many boxes as start() was given.
   [[nodiscard]] bool build(std::span<const core::Box> boxes);
   void find();
   void read_back(std::vector<core::Pair>& out);
 
-  // Since start.
+  // Counted since start.
   [[nodiscard]] std::uint64_t static_builds() const { return static_builds_; }
   [[nodiscard]] std::uint64_t static_boxes_kept() const { return static_boxes_kept_; }
   [[nodiscard]] std::uint64_t nodes_visited() const { return moving_.nodes_visited(); }

@@ -35,7 +35,7 @@ Box united(const Box& a, const Box& b) {
           {std::max(a.max.x, b.max.x), std::max(a.max.y, b.max.y), std::max(a.max.z, b.max.z)}};
 }
 
-// How many boxes are cut into pieces of equal size for workers.
+// Cuts a number of boxes into pieces of equal size for workers.
 struct Chunks {
   std::size_t count;
   std::size_t size;
@@ -59,7 +59,7 @@ struct Chunks {
   }
 };
 
-// Copies n boxes to their slots' places: slot_of[k] is written by number(begin, end, count) per chunk. Afterwards
+// Copies n boxes to the places of their slots; number(begin, end, count) writes slot_of[k] for each chunk. Afterwards
 // counts[slot] is the end of each slot. Stable.
 template <typename Number, typename RecordAt>
 void scatter(std::size_t n, bool alone, std::size_t slots, std::vector<std::uint32_t>& counts, const Number& number,
@@ -102,7 +102,7 @@ bool BoxBuckets::survey(std::span<const Box> boxes) {
   const Chunks chunks(n, false);
   surveys_.resize(chunks.count);
   chunks.run(n, [&](std::size_t c, std::size_t begin, std::size_t end) {
-    // Neighbours often share a bin; four tables keep their increments from waiting for one another.
+    // Neighbors often share a bin; with four tables their increments need not wait for one another.
     std::array<std::array<std::uint32_t, core::kSizeBins>, 4> sizes{};
     Box bounds = core::empty_box();
     bool is_sound = true;
@@ -114,7 +114,7 @@ bool BoxBuckets::survey(std::span<const Box> boxes) {
       ++sizes[i % 4U][static_cast<std::size_t>(core::size_bin(box)) & 255U];
     }
     Survey& survey = surveys_[c];
-    // An infinite bound of any box shows in the bounds of all.
+    // An infinite bound of any box shows in the bounds of all boxes.
     survey.is_sound = is_sound && is_sound_box(bounds);
     survey.bounds = bounds;
     for (std::size_t bin = 0; bin < survey.sizes.size(); ++bin)
@@ -137,8 +137,8 @@ void BoxBuckets::deal_all(std::span<const Box> boxes, std::span<const std::uint8
     bounds_m3 *= static_cast<double>(whole_.bounds.max[axis]) - static_cast<double>(whole_.bounds.min[axis]);
   plan_ = plan_size_classes(whole_.sizes, bounds_m3);
 
-  // The bounds of all boxes are used as the bounds of their centers. Where that makes coarse cells, buckets are split
-  // again.
+  // The bounds of all boxes are used as the bounds of their centers. Where cells become too coarse by that, buckets are
+  // split again.
   const Box half_bounds{0.5F * whole_.bounds.min, 0.5F * whole_.bounds.max};
   const int bits = split_bits(static_cast<std::uint32_t>(n));
   const core::CurveGrid grid = core::make_curve_grid(half_bounds, bits);
@@ -229,7 +229,8 @@ void BoxBuckets::split_large() {
   const auto is_over = [](std::uint32_t most) {
     return [most](const Bucket& b) { return b.count() > most && !b.is_one_point; };
   };
-  // Huge buckets one after another, each by all workers. Centers at opposite ends of a grid part, so each round splits.
+  // Huge buckets are split one after another, each by all workers. Centers at opposite ends of a grid fall into
+  // different cells, so each round splits.
   while (std::any_of(buckets_.begin(), buckets_.end(), is_over(kHugeBucket))) {
     next_buckets_.clear();
     for (const Bucket& bucket : buckets_) {
@@ -241,14 +242,14 @@ void BoxBuckets::split_large() {
     buckets_.swap(next_buckets_);
   }
   if (std::none_of(buckets_.begin(), buckets_.end(), is_over(kLargeBucket))) return;
-  // The other buckets each by one worker.
+  // Each of the other buckets is split by one worker.
   std::vector<std::vector<Bucket>> parts(buckets_.size());
   tbb::parallel_for(std::size_t{0}, buckets_.size(), [&](std::size_t b) { split_until_small(buckets_[b], parts[b]); });
   buckets_.clear();
   for (const auto& own_parts : parts) buckets_.insert(buckets_.end(), own_parts.begin(), own_parts.end());
 }
 
-// Neighbours become one bucket while they fit, because each bucket's last pack may have free lanes.
+// Neighbors are joined to one bucket while they fit into it, because each bucket's last pack may have free lanes.
 void BoxBuckets::join_small() {
   std::size_t last = 0;
   for (std::size_t b = 1; b < buckets_.size(); ++b) {

@@ -1,6 +1,6 @@
 // The first half of building the tree: boxes are copied into buckets, by size class and then along the Hilbert curve,
-// so that the second half works on a few thousand neighbours at a time, in a core's own cache. Sorting keys and then
-// fetching a million boxes in sorted order costs a memory latency each; copying them twice in streams does not.
+// so that the second half works on a few thousand neighbors at a time, in a core's own cache. Sorting keys and then
+// fetching a million boxes in sorted order costs a memory latency for each box; copying them twice as streams does not.
 #pragma once
 
 #include <array>
@@ -35,7 +35,7 @@ class BoxBuckets {
   // False when a box is not finite or inside out; then there are no buckets.
   [[nodiscard]] bool deal(std::span<const core::Box> boxes, std::span<const std::uint8_t> is_static);
 
-  // In order of class, then along the curve. None is empty.
+  // In order of class, then along the curve. No bucket is empty.
   [[nodiscard]] std::span<const Bucket> buckets() const { return buckets_; }
   [[nodiscard]] const BoxRecord* records(const Bucket& bucket) const {
     return records_[bucket.buffer].data() + bucket.begin;

@@ -9,7 +9,7 @@
 
 namespace broadside::reference {
 
-// One worker's memory for it.
+// The memory of one worker for this.
 class CurveOrder {
  public:
   // Places 0 .. count-1 in order; valid until the next call.

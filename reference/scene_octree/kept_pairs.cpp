@@ -15,8 +15,8 @@ using core::Pair;
 using Range = tbb::blocked_range<std::size_t>;
 
 constexpr std::size_t kBoxGrain = 16'384;
-// Of the mean side, on each side of a box. Boxes that move by a hundredth a frame stay within for six frames, and some
-// (1 + 1/8)^3 = 1.4 times as many pairs are candidates.
+// How much a box is fattened on each side, as a share of its mean side. A box that moves by a hundredth a frame stays
+// within its fat one for six frames, and there are some (1 + 1/8)^3 = 1.4 times as many candidate pairs.
 constexpr float kFat = 0x1p-4F;
 constexpr std::uint32_t kMostPause = 64;
 
@@ -31,7 +31,7 @@ void KeptPairs::start(std::span<const std::uint8_t> is_static) {
   searched_frames_ = kept_frames_ = candidates_tested_ = 0;
 }
 
-// A box that is no number is within nothing.
+// A box with NaN is within nothing.
 bool KeptPairs::are_within(std::span<const Box> boxes) const {
   return tbb::parallel_reduce(
       Range(0, boxes.size(), kBoxGrain), true,

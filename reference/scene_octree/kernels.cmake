@@ -1,4 +1,4 @@
-# Kernels compiled for each instruction set and chosen at run time; their results are the same bits.
+# Kernels compiled for each instruction set and chosen at run time; all give the same bits.
 set(avx2_kernel ${CMAKE_CURRENT_SOURCE_DIR}/scene_octree/tree_join_avx2.cpp)
 if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
   set_source_files_properties(${avx2_kernel} PROPERTIES COMPILE_OPTIONS "-mavx2;-mpopcnt")

@@ -9,7 +9,7 @@ namespace {
 
 // 2048 counters of 4 bytes and as many open destinations: the most that fit a core's L1 and TLB.
 constexpr int kMostDigitBits = 11;
-// Under this, comparison sorting wins over clearing and summing the counters.
+// For fewer entries, a comparison sort is faster than clearing and summing the counters.
 constexpr std::size_t kFewEntries = 512;
 
 struct Digit {
@@ -22,7 +22,7 @@ int pass_count(int key_bits) {
   return (key_bits + kMostDigitBits - 1) / kMostDigitBits;
 }
 
-// Digits of nearly equal width: 24 bits are 8 + 8 + 8.
+// Digits have nearly equal widths: 24 bits are 8 + 8 + 8.
 Digit digit(int key_bits, int pass) {
   const int passes = pass_count(key_bits);
   const int first = key_bits * pass / passes;

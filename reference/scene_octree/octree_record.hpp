@@ -1,4 +1,5 @@
-// What a broad phase over a scene octree adds to a trace: its nodes, and where it stored each body.
+// What a broad phase over a scene octree adds to a trace: the octree's nodes, and the node in which each body is
+// stored.
 #pragma once
 
 #include <cstdint>
@@ -8,11 +9,12 @@
 
 namespace broadside::reference {
 
-// Offered by broad phases that have one, beside core::BroadPhase.
+// Offered, beside core::BroadPhase, by broad phases that have a scene octree.
 class OctreeRecord {
  public:
   virtual ~OctreeRecord() = default;
-  // Of the last update: nodes level by level, siblings next to each other in Morton order; node_of_body by body.
+  // Gives the octree of the last update: nodes level by level, siblings next to each other in Morton order;
+  // node_of_body by body.
   virtual void tell_octree(std::vector<core::OctreeNode>& nodes, std::vector<std::uint32_t>& node_of_body) const = 0;
 };
 

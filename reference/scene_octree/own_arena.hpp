@@ -6,7 +6,7 @@
 
 namespace broadside::reference {
 
-// Runs work in an arena of its own with so many threads, or with 0 in the caller's.
+// Runs work in an arena of its own with the given number of threads, or with 0 in the caller's arena.
 class OwnArena {
  public:
   explicit OwnArena(int threads);

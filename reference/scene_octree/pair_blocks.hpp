@@ -11,7 +11,7 @@
 
 namespace broadside::reference {
 
-// 256 KiB: a few blocks a worker, and a block's unused tail is never touched.
+// 256 KiB a block: a worker needs a few blocks, and a block's unused tail is never touched.
 inline constexpr std::size_t kPairsPerBlock = std::size_t{1} << 15U;
 
 // One worker's blocks. Not shared between threads.
@@ -33,7 +33,7 @@ class PairWriter {
     filled_.back() += written;
     count_ += written;
   }
-  // One past the room that is left in the open block.
+  // The end of the room that is left in the open block.
   [[nodiscard]] core::Pair* end() const { return end_; }
   [[nodiscard]] std::size_t count() const { return count_; }
   [[nodiscard]] std::size_t block_count() const { return filled_.size(); }

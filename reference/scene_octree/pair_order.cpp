@@ -13,9 +13,9 @@ namespace {
 constexpr std::size_t kFewPairs = 2048;
 // Buckets aim at 16 Ki pairs, 128 KiB: half of a common 256 KiB L2, since source and destination are both live.
 constexpr std::size_t kPairsPerBucket = std::size_t{1} << 14U;
-// More destinations than this and the dealing pass misses the TLB on every write.
+// With more destinations, the dealing pass would miss the TLB on every write.
 constexpr std::size_t kMostBuckets = 1024;
-// Rows this short are sorted by insertion.
+// Rows of up to this length are sorted by insertion.
 constexpr std::size_t kShortRow = 24;
 
 void sort_row(core::Pair* first, core::Pair* last) {

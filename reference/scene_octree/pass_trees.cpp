@@ -13,7 +13,7 @@ using core::Pair;
 bool PassTrees::build(std::span<const Box> boxes, std::span<const std::uint8_t> is_static) {
   plan_ = core::plan_passes(boxes, 0.0F, least_boxes_);
   if (plan_.is_plain()) return plain_.build(boxes, is_static);
-  // A map may make a sound box of one that is not.
+  // A map of a pass may turn a box that is not sound into a sound one, so boxes are checked before.
   if (!check_boxes(boxes).ok()) return false;
   take(boxes, is_static);
   while (passes_.size() < plan_.passes.size()) passes_.push_back(std::make_unique<Pass>());

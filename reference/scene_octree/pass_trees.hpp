@@ -1,5 +1,5 @@
-// The fast exact broad phase on whatever boxes there are: one SizeTree over the boxes as they are, or where
-// core/method/box_passes.hpp finds that to be bad, one for each pass.
+// The fast exact broad phase for any boxes: one SizeTree over the boxes as they are, or, where
+// core/method/box_passes.hpp finds that too slow, one SizeTree for each pass.
 #pragma once
 
 #include <cstdint>
@@ -28,11 +28,11 @@ class PassTrees {
   // The pairs of the last find, in canonical order.
   void read_back(std::vector<core::Pair>& out);
 
-  // Where the workers left the pairs of the last find, in no fixed order.
+  // The pairs of the last find where the workers left them, in no fixed order.
   [[nodiscard]] std::span<const std::span<const core::Pair>> found_blocks() {
     return plan_.is_plain() ? plain_.found_blocks() : settled_.gather();
   }
-  // Where there are no passes: all boxes in the tree's order.
+  // Where there are no passes: the ids of all boxes in the tree's order.
   void order_of_boxes(std::vector<std::uint32_t>& ids) const { plain_.order_of_boxes(ids); }
 
   [[nodiscard]] const core::PassPlan& plan() const { return plan_; }
@@ -52,7 +52,7 @@ class PassTrees {
 
   void take(std::span<const core::Box> boxes, std::span<const std::uint8_t> is_static);
   void gather(const core::BoxPass& plan, Pass& pass) const;
-  // What a tree found, without the pairs that only its coordinates have, or that another pass keeps.
+  // Keeps what a tree found, without the pairs that overlap in its coordinates alone or that another pass keeps.
   void settle(const core::BoxPass& plan, Pass& pass);
 
   std::uint32_t least_boxes_;

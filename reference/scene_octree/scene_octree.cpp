@@ -86,7 +86,7 @@ void SceneOctree::find() {
         // The arrays are padded by a tile, so reading past the end is harmless; hits there are not looked at.
         for (std::uint32_t k = 0; k < kTile; ++k) {
           const std::uint32_t b = first + k;
-          // & instead of &&: all tests in vector lanes, none a branch.
+          // & instead of &&: all tests run in vector lanes, without branches.
           // NOLINTNEXTLINE(clang-diagnostic-bitwise-instead-of-logical)
           hit[k] = static_cast<std::uint8_t>((a.min.x <= max_x_[b]) & (min_x_[b] <= a.max.x) & (a.min.y <= max_y_[b]) &
                                              (min_y_[b] <= a.max.y) & (a.min.z <= max_z_[b]) & (min_z_[b] <= a.max.z) &
@@ -110,7 +110,7 @@ void SceneOctree::find() {
 void SceneOctree::tell_octree(std::vector<core::OctreeNode>& nodes, std::vector<std::uint32_t>& node_of_body) const {
   nodes.clear();
   nodes.push_back({domain_, 0, core::kNoNode, core::kNoNode, 0});
-  // Of each level: its first node. Node k of a level has the Morton code k.
+  // The first node of each level. Node k of a level has the Morton code k.
   std::array<std::uint32_t, core::kMaxSceneOctreeDepth + 2> first{0, 1};
   for (int level = 1; level <= depth_; ++level) {
     const std::uint32_t parents = first[level] - first[level - 1];

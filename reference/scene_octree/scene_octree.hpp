@@ -27,13 +27,13 @@ class SceneOctree {
   void find_pairs(std::span<const core::Box> boxes, std::span<const std::uint8_t> is_static, const core::Box& domain,
                   std::vector<core::Pair>& out);
 
-  // The two halves of find_pairs, and the order, for callers that time them apart.
+  // The two halves of find_pairs, and the sorting, for callers that time them separately.
   void build(std::span<const core::Box> boxes, std::span<const std::uint8_t> is_static, const core::Box& domain);
   void find();
   void read_back(std::vector<core::Pair>& out);
 
   [[nodiscard]] int depth() const { return depth_; }
-  // Of each body, in order of id: the node that it is stored in. Valid after build.
+  // The node in which each body is stored, in order of id. Valid after build.
   [[nodiscard]] std::span<const core::SceneNode> nodes() const { return nodes_; }
   // The complete octree to which these nodes belong, as OctreeRecord::tell_octree gives it.
   void tell_octree(std::vector<core::OctreeNode>& nodes, std::vector<std::uint32_t>& node_of_body) const;

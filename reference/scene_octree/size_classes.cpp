@@ -1,8 +1,8 @@
 // The model. Boxes of a class with c members in a volume V are spaced (V / c)^(1/3) apart, so a pack of 8 is about
 // twice that wide, plus its largest member. Packs of widths W and W', n and n' of them, meet n n' E[(W + W')^3] / V
-// times, in expectation. A class of mixed sizes has wide packs where a large member fell; one more class costs each
-// finer pack a walk through its tree. V is the volume of the bounds, or the sum of the boxes' own volumes where that is
-// less, since then the boxes are crowded into part of the bounds.
+// times, in expectation. In a class of mixed sizes, packs that contain a large member are wide; one more class costs
+// each finer pack a walk through its tree. V is the volume of the bounds, or the sum of the boxes' own volumes where
+// that is less, since then the boxes are crowded into part of the bounds.
 #include "reference/scene_octree/size_classes.hpp"
 
 #include <algorithm>
@@ -11,7 +11,7 @@
 namespace broadside::reference {
 namespace {
 
-// A walk through a tree that finds nothing, in pack tests.
+// The cost of a walk through a tree that finds nothing, in pack tests.
 constexpr double kWalk = 2.0;
 
 struct Span {
@@ -45,7 +45,7 @@ class Model {
     for (int bin = first_bin; bin <= last_bin; ++bin) {
       if (histogram_[at(bin)] == 0) continue;
       below += histogram_[at(bin)];
-      // The largest of eight is in this bin.
+      // The probability that the largest of eight boxes is in this bin or a smaller one.
       const double up_to = std::pow(below / s.count, 8);
       const double chance = up_to - had;
       had = up_to;

@@ -16,7 +16,7 @@ struct SizeClasses {
   std::vector<std::uint32_t> counts;
 };
 
-// Starts from one class per occupied bin and merges neighbours while the expected number of pack tests falls: see
+// Starts from one class per occupied bin and merges neighbors while the expected number of pack tests falls: see
 // size_classes.cpp for the model. bounds_m3: volume of the bounds of all boxes.
 SizeClasses plan_size_classes(const std::array<std::uint32_t, core::kSizeBins>& histogram, double bounds_m3);
 

@@ -15,7 +15,8 @@ using core::Box;
 constexpr std::uint32_t kWidth = core::kTreeWidth;
 // Nodes of level 1, 64 boxes each, per task: building is some 100 us of work.
 constexpr std::uint32_t kBuildGrain = 64;
-// Packs searched per task: some 50 us of work where boxes are spread, so that crowded places still divide.
+// Packs searched per task: some 50 us of work where boxes are spread, and few enough that the work in crowded places is
+// still divided.
 constexpr std::uint32_t kSearchGrain = 64;
 
 static_assert(sizeof(FoundPair) == sizeof(core::Pair) && alignof(FoundPair) == alignof(core::Pair));
@@ -53,7 +54,7 @@ Box bounds_of(const BoxPack& pack) {
           {most(pack.max_x), most(pack.max_y), most(pack.max_z)}};
 }
 
-// Hands a worker's blocks to a kernel.
+// Gives a kernel more room in a worker's blocks.
 void take_more(PairSink& sink) {
   auto& writer = *static_cast<PairWriter*>(sink.owner);
   if (sink.next != nullptr) writer.commit(reinterpret_cast<core::Pair*>(sink.next));
@@ -98,7 +99,7 @@ void SizeTree::lay_out() {
     } while (count > 1U);
   }
   packs_.resize(packs);
-  // Free lanes of the last node of level 1; all other lanes are written by the buckets.
+  // Sets the free lanes of the last node of level 1; all other lanes are written by the buckets.
   for (const TreeClass& tree : classes_)
     for (std::uint32_t lane = tree.packs; lane % kWidth != 0; ++lane)
       put(packs_[tree.level_begin[1] + lane / kWidth], lane % kWidth, core::empty_box());

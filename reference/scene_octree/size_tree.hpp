@@ -28,11 +28,12 @@ class SizeTree {
   void find();
   // After build: all boxes' ids, class by class along the curve.
   void order_of_boxes(std::vector<std::uint32_t>& ids) const;
-  // Behind those of find, the overlapping pairs of this tree's boxes with another's, whose ids are others than here.
+  // Adds to the pairs of find the overlapping pairs of this tree's boxes with those of another tree, whose ids must
+  // differ.
   void find_more(const SizeTree& other);
   // After build: box k is called ids[k] from now on.
   void renumber(std::span<const std::uint32_t> ids);
-  // The pairs of the last find, in canonical order. Of a tree that was renumbered, found_blocks has them.
+  // The pairs of the last find, in canonical order. For a tree that was renumbered, use found_blocks.
   void read_back(std::vector<core::Pair>& out);
 
   [[nodiscard]] std::uint64_t found() const { return found_.count(); }

@@ -22,7 +22,7 @@
 namespace broadside::reference {
 namespace {
 
-// Entries of a list: enough that a box of usual size fills none, few enough that all of them stay in L1 (8 KiB).
+// Entries of a list: enough that a box of usual size does not fill one, few enough that all lists stay in L1 (8 KiB).
 constexpr std::uint32_t kListSize = 256;
 // A giant's list is handed to the next stage when it holds this many; one more append always fits.
 constexpr std::uint32_t kListFull = kListSize - 8U;
@@ -83,7 +83,7 @@ class Join {
     if (end != begin) descend(level - 1U, static_cast<std::uint32_t>(end - begin));
   }
 
-  // The listed packs overlap the bounds of ours: lists which of our boxes overlap the bounds of which of them.
+  // The listed packs overlap the bounds of ours: lists which of our boxes overlap the bounds of each of them.
   void narrow(std::uint32_t count) {
     const BoxPack& own = tree_.packs[own_pack_];
     const unsigned own_static = tree_.static_lanes[own_pack_];
@@ -105,7 +105,7 @@ class Join {
     test(static_cast<std::uint32_t>(end - near_));
   }
 
-  // Each listed one of our boxes against the boxes of the pack listed with it: 8 pack + lane of ours.
+  // Tests each listed box of ours against the boxes of the pack that is listed with it: 8 pack + lane of ours.
   void test(std::uint32_t count) {
     const BoxPack& own = tree_.packs[own_pack_];
     const std::uint32_t* own_ids = tree_.ids + std::size_t{8} * own_pack_;
@@ -116,7 +116,7 @@ class Join {
       const std::uint32_t lane = near_[k] % 8U;
       const std::uint32_t pack = packs + near_[k] / 8U;
       unsigned hits = Lanes::overlapping(other_.packs[pack], Lanes::spread(own, lane));
-      // Of our own pack, the lanes after ours; of two static bodies, none.
+      // Within our own pack only the lanes after ours count, and never a pair of two static bodies.
       hits &= is_itself_ && pack == own_pack_ ? ~1U << lane : ~0U;
       hits &= ~(other_.static_lanes[pack] & (0U - (own_static >> lane & 1U)));
       if (sink_.end - sink_.next < 8) sink_.more(sink_);

@@ -1,4 +1,4 @@
-// The search kernel in plain C++: the loop over lanes compares whole registers where the compiler knows how (SSE2,
+// The search kernel in plain C++: compilers can turn the loop over lanes into comparisons of whole registers (SSE2,
 // NEON).
 #include "reference/scene_octree/tree_join.hpp"
 
@@ -13,7 +13,7 @@ struct Portable {
     return {pack.min_x[lane], pack.min_y[lane], pack.min_z[lane], pack.max_x[lane], pack.max_y[lane], pack.max_z[lane]};
   }
   static unsigned overlapping(const BoxPack& pack, const Box& box) {
-    // Each lane keeps its own bit of the answer, so that the sum at the end is of distinct bits.
+    // Each lane has its own bit of the answer, so the sum at the end adds distinct bits.
     constexpr std::uint32_t kBit[8] = {1, 2, 4, 8, 16, 32, 64, 128};
     std::uint32_t hit[8];
     for (int k = 0; k < 8; ++k) {

@@ -44,21 +44,21 @@ struct FoundPair {
   std::uint32_t j;
 };
 
-// Where a kernel puts pairs: [next, end) is free. Short of room, it calls more, which takes what was written and sets
-// both.
+// Where a kernel puts pairs: [next, end) is free. When room is short, the kernel calls more, which takes the pairs
+// written so far and sets both.
 struct PairSink {
   FoundPair* next;
   FoundPair* end;
   void* owner;
   void (*more)(PairSink& sink);
-  // Work done: packs of eight tested against one box, on the way down and among the boxes themselves. Counted by list,
-  // not by test, so that counting costs nothing that could be measured.
+  // Work done: tests of one box against a pack of eight, on the way down and among the boxes themselves. Counted by
+  // list, not by test, so that counting costs no measurable time.
   std::uint64_t nodes_visited = 0;
   std::uint64_t packs_tested = 0;
 };
 
-// Finds all pairs that packs [first, last) of a class own: of the tree with itself, or where `other` is another object,
-// of the tree's boxes with all of the other's. Every kernel finds the same set.
+// Finds all pairs that packs [first, last) of a class own: pairs within the tree, or, where `other` is another tree,
+// pairs of the tree's boxes with all boxes of the other one. Every kernel finds the same set.
 using JoinKernel = void (*)(const TreeView& tree, const TreeView& other, std::uint32_t pack_class, std::uint32_t first,
                             std::uint32_t last, PairSink& sink);
 

@@ -91,7 +91,8 @@ core::Result<core::Engine> create(const core::Settings& settings) {
                                               {"integrator", "Runge-Kutta-Merson, error-controlled"},
                                               {"friction", "regularized"},
                                               {"contact_model", "compliant"},
-                                              // What its integrator is asked for, in place of an order in the step.
+                                              // The accuracy that its integrator is asked for, in place of an order in
+                                              // the step.
                                               {"accuracy", number(options.accuracy)},
                                               {"precision", "f64"}});
   engine.dynamics = make_simbody_world(options);

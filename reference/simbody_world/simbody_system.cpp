@@ -32,8 +32,8 @@ SimTK::Inertia inertia(const plain::Mat& m) {
   return {m.row[0].x, m.row[1].y, m.row[2].z, m.row[0].y, m.row[0].z, m.row[1].z};
 }
 
-// What the scene's wrenches do to one body at every stage of the integrator, so that a force in the body's axes turns
-// with it.
+// Applies the scene's wrenches to one body at every stage of the integrator, so that a force in the body's axes turns
+// with the body.
 class Wrench : public SimTK::Force::Custom::Implementation {
  public:
   Wrench(SimTK::MobilizedBody body, const SimbodyBody& given) : body_(std::move(body)), given_(given) {}
@@ -46,7 +46,7 @@ class Wrench : public SimTK::Force::Custom::Implementation {
     forces[body_.getMobilizedBodyIndex()] += SimTK::SpatialVec(torque, force);
   }
 
-  // Asked for by Simbody where somebody asks it for energies, which nobody does.
+  // Simbody calls this where a user asks for energies, which does not happen here.
   SimTK::Real calcPotentialEnergy(const SimTK::State&) const override { return 0.0; }
 
  private:

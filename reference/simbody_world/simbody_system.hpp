@@ -1,5 +1,5 @@
-// Simbody's objects behind plain numbers. Its headers are no C++20 (their == are ambiguous there), so the source beside
-// this header is compiled as C++17, and includes nothing of ours that is newer.
+// Simbody's objects behind plain numbers. Its headers are not valid C++20 (their == are ambiguous there), so the source
+// beside this header is compiled as C++17, and includes nothing of ours that needs a newer standard.
 #pragma once
 
 #include <cstddef>
@@ -73,6 +73,6 @@ class SimbodySystem {
 };
 
 std::string simbody_version();     // "3.7.0"
-const void* address_in_simbody();  // of something that its library holds
+const void* address_in_simbody();  // of an object inside its library
 
 }  // namespace broadside::reference

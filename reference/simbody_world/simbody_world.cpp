@@ -15,7 +15,8 @@ namespace {
 
 using core::Status;
 
-// Simbody's surfaces have a dissipation where others have a restitution. The scene's is met at this speed of impact.
+// Simbody's surfaces have a dissipation instead of a restitution. It is chosen to give the scene's restitution at this
+// speed of impact.
 constexpr double kReferenceSpeed_m_s = 1.0;
 
 SimbodySurface surface_of(const core::Material& m) {
@@ -25,7 +26,7 @@ SimbodySurface surface_of(const core::Material& m) {
 core::Result<SimbodyBody> body_of(const RigidStart& start, const core::Scene& scene) {
   const Solid solid = solid_of(scene.meshes[start.mesh]);
   const bool is_box = solid.kind == SolidKind::kBox;
-  // Bricks meet half-spaces alone in Simbody.
+  // In Simbody, bricks have contacts with half-spaces alone.
   const bool is_known = solid.kind == SolidKind::kSphere || (is_box && scene.bodies.size() == 1);
   if (!is_known)
     return core::Error{"unsupported: " + (is_box ? std::string("a box among other bodies") : solid.what), scene.name,

@@ -12,7 +12,7 @@ namespace broadside::reference {
 struct SimbodyOptions {
   double accuracy = 1e-8;  // of its error-controlled integrator, relative; a step takes as many inner steps as it needs
   double stiffness_pa = 1e7;     // of every surface: rubber
-  double slip_speed_m_s = 1e-3;  // below it friction fades: what sticks creeps more slowly than this
+  double slip_speed_m_s = 1e-3;  // below it friction fades: a body that should stick creeps more slowly than this
 };
 
 // Records states alone: contact forces are integrated over inner steps and not kept.

@@ -14,8 +14,8 @@ using core::Pair;
 
 // Entries of one task of the search: about a hundred cells of the method's scenes.
 constexpr std::size_t kBlock = 1024;
-// Cells past 2^40 are one: beyond any scene, and far from where int64 ends. Clamping keeps the order, so it loses
-// nothing.
+// Cells beyond 2^40 are clamped to one cell: that is beyond any scene, and far from where int64 ends. Clamping keeps
+// the order, so no pair is lost.
 constexpr double kFarCell = 1099511627776.0;
 
 // 21 bits an axis.
@@ -27,8 +27,8 @@ std::uint64_t key_of(const std::array<std::int64_t, 3>& cell) {
 
 }  // namespace
 
-// Rounding and floor are monotone: boxes that touch at a coordinate both touch its cell, so no pair is lost, whatever
-// the rounding of the division is.
+// Rounding and floor are monotone: boxes that touch at a coordinate both touch the cell of that coordinate. So no pair
+// is lost, whatever the rounding of the division.
 std::int64_t SpatialHash::cell_of(float coordinate) const {
   const double cell = std::floor(static_cast<double>(coordinate) / static_cast<double>(cell_m_));
   return static_cast<std::int64_t>(std::clamp(cell, -kFarCell, kFarCell));
@@ -106,7 +106,7 @@ void SpatialHash::test_cells(std::size_t begin, std::size_t end, std::vector<Pai
   }
 }
 
-// Against all bodies; of two oversized bodies the lower id reports the pair.
+// Tests a body against all bodies; of two oversized bodies the lower id reports the pair.
 void SpatialHash::test_oversized(std::uint32_t body, std::vector<Pair>& out) const {
   for (std::uint32_t other = 0; other < boxes_.size(); ++other) {
     if (other == body || (is_oversized_[other] != 0 && other < body)) continue;

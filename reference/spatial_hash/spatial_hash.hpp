@@ -1,4 +1,4 @@
-// The paper's comparison: a uniform grid of cells, hashed. METHOD section 2, "Spatial hash".
+// The broad phase with which the paper compares: a uniform grid of cells, hashed. METHOD section 2, "Spatial hash".
 #pragma once
 
 #include <array>
@@ -14,9 +14,9 @@ namespace broadside::reference {
 // Keeps its memory between calls. Works in the caller's oneTBB arena; the pairs do not depend on its size.
 //
 // A body is entered in every cell that its closed box touches, and bodies that share a cell are tested with P(6). Each
-// pair is reported in one cell only, the lowest that both touch, so nothing is found twice. Two departures: a body that
-// touches more than kMostCells cells is entered in none and tested against all instead, because its entries would
-// outgrow memory; and cells 2^21 apart on an axis share a key, which costs tests and changes no answer.
+// pair is reported in one cell only, the lowest that both touch, so nothing is found twice. Two departures from the
+// paper: a body that touches more than kMostCells cells is entered in none and tested against all instead, because its
+// entries would outgrow memory; and cells 2^21 apart on an axis share a key, which costs tests and changes no answer.
 class SpatialHash {
  public:
   // 16 cells a side. In the method's scenes a body is 1 m and a cell 0.25 m: 5 a side.

@@ -30,9 +30,10 @@ function shapeOf(shape, mesh) {
   return new CANNON.ConvexPolyhedron({ vertices, faces: polygonsOf(vertices, triangles) });
 }
 
-// The library clips a face by as many neighbors as it has edges, the first ones that share a vertex with it: right for the
-// four sides of a brick's face, wrong for its two triangles, whose points then lie outside the body. So triangles of one
-// plane are one polygon here: the edges of such triangles that have no reverse, one after another.
+// The library clips a face by as many neighbors as the face has edges, taking the first ones that share a vertex with
+// it. That is right for the four sides of a brick's face, and wrong for its two triangles, whose points then lie
+// outside the body. So triangles of one plane are joined to one polygon here: the edges that have no reverse, one after
+// another.
 function polygonsOf(vertices, triangles) {
   const planes = [];
   for (const face of triangles) {
@@ -115,8 +116,9 @@ function step(h) {
   return (performance.now() - start) / 1000;
 }
 
-// The equations of the last step: multipliers are forces on the second body, along the normal and along two tangents. They
-// belong to where the step began. Points at one place share their friction: the first of them has all of it.
+// The equations of the last step: multipliers are forces on the second body, along the normal and along two tangents.
+// They belong to the poses at the step's start. Points at one place share their friction: the first of them has all of
+// it.
 function readPoints() {
   const key = (e) => [e.bi.id, e.bj.id, ...list(e.ri), ...list(e.rj)].join(" ");
   const center = (body) => list(body.type === CANNON.Body.STATIC ? body.position : body.previousPosition);

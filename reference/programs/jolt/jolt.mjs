@@ -54,7 +54,7 @@ function made(settings) {
   const result = settings.Create();
   if (result.HasError()) throw new Error(`Jolt refused a shape: ${result.GetError().c_str()}`);
   const shape = result.Get();
-  shape.AddRef();  // the result that holds it is used again for the next one
+  shape.AddRef();  // the result that holds it is used again for the next shape
   return shape;
 }
 
@@ -168,7 +168,7 @@ function step(h) {
     bodies[k].AddForce(vec3(force)), bodies[k].AddTorque(vec3(torque));
   }
   points = [], manifolds = 0;
-  // A step of 1/60 s as a float is a little longer than 1/60.
+  // As a float, a step of 1/60 s is a little longer than 1/60.
   const collisionSteps = isTuned ? Math.max(1, Math.ceil(60 * h - 1e-6)) : 1;
   const start = performance.now();
   jolt.Step(h, collisionSteps);

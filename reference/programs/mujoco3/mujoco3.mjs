@@ -34,7 +34,7 @@ function bodyOf(b, k) {
   return `<body ${pose}>${joint}<inertial pos="${text(b.center_of_mass)}" mass="${text([b.mass])}" fullinertia="${text([xx, yy, zz, xy, xz, yz])}"/>${geomOf(b, k)}</body>`;
 }
 
-// Planes look along their own z.
+// Planes face along their own z.
 function faceOf({ face, normal, point }) {
   const z = normal[2] > 0 ? [1, 0, 0, 0] : normal[2] < 0 ? [0, 1, 0, 0] : [Math.SQRT1_2, ...scaled(Math.SQRT1_2, cross([0, 0, 1], normal))];
   return `<geom name="f${face}" type="plane" size="0 0 1" pos="${text(point)}" quat="${text(z)}" friction="${text([scene.face_mu_kinetic, 0, 0])}"/>`;

@@ -12,7 +12,8 @@ import { facesOf, frictionOf, pointOf, principal, refuse, wrenchesOf } from "../
 const require = createRequire(import.meta.url);
 const packageFile = require.resolve("physx-js-webidl/package.json");
 const version = JSON.parse(readFileSync(packageFile)).version;
-// Its loader takes Node for a browser's worker unless it is told less, and is given the code itself.
+// The loader is made for browsers. Node's version is hidden while it loads, so that it behaves as in a worker; it is
+// given the code itself.
 const node = process.versions.node;
 Object.defineProperty(process.versions, "node", { value: undefined, configurable: true });
 globalThis.WorkerGlobalScope ??= Object;
@@ -42,7 +43,8 @@ let hasGyroscopic = false, isTuned = false;
 let scene, world, bodies;
 let points = [], ids = new Map();  // of bodies and faces, by address
 
-// Pairs report their points while they touch: the third word of filter data is what pairs raise beside contact.
+// Pairs report their points while they touch: the third word of the filter data holds the flags that a pair raises in
+// addition to contact.
 const REPORTS = P.PxPairFlagEnum.eNOTIFY_TOUCH_FOUND | P.PxPairFlagEnum.eNOTIFY_TOUCH_PERSISTS | P.PxPairFlagEnum.eNOTIFY_CONTACT_POINTS;
 const MOST_POINTS = 256;
 const found = new P.PxArray_PxContactPairPoint(MOST_POINTS);
@@ -134,7 +136,7 @@ function begin(given) {
   ids = new Map(bodies.map((body, k) => [P.getPointer(body), k]));
   const material = materialOf(scene.face_mu_kinetic, scene.face_restitution);
   for (const { face, normal, point } of facesOf(scene)) {
-    // Planes look along their own x.
+    // Planes face along their own x.
     const q = normal[0] > 0 ? [1, 0, 0, 0] : normal[0] < 0 ? [0, 0, 0, 1] : normal[1] !== 0 ? [Math.SQRT1_2, 0, 0, normal[1] * Math.SQRT1_2] : [Math.SQRT1_2, 0, -normal[2] * Math.SQRT1_2, 0];
     const wall = physics.createRigidStatic(pose(point, q));
     shapeInto(wall, new P.PxPlaneGeometry(), material, [0, 0, 0], [1, 0, 0, 0]);

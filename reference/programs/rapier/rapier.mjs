@@ -84,8 +84,8 @@ function step(h) {
   return (performance.now() - start) / 1000;
 }
 
-// Points are kept in the axes of their shapes, and not found anew in every step: where they lie at the step's start says how
-// far apart they are, and contactDist does not. A manifold's normal points from the first shape.
+// Points are kept in the axes of their shapes and are not found anew in every step. How far they are apart follows from
+// their places at the step's start; contactDist does not give it. A manifold's normal points from the first shape.
 function readPoints() {
   const points = [];
   const place = (handle, p) => add(detected.get(handle).x, turned(detected.get(handle).q, list(p)));
