@@ -9,7 +9,7 @@
 namespace broadside::gpu {
 namespace {
 
-// The keys and values of octree-cpu, but for its threads; and what its broad phase has on devices.
+// The keys and values of octree-cpu, except its threads, and what the broad phase has on devices.
 std::span<const core::SettingRow> octree_settings() {
   static const std::vector<core::SettingRow> kSettings{
       {"broad",
@@ -33,7 +33,7 @@ std::span<const core::SettingRow> octree_settings() {
   return kSettings;
 }
 
-// Those of hash-cpu, but for its threads.
+// The keys and values of hash-cpu, except its threads.
 std::span<const core::SettingRow> hash_settings() {
   static const std::vector<core::SettingRow> kSettings{core::cell_setting(), core::levels_setting(),
                                                        core::vertex_stage_setting()};

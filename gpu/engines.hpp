@@ -5,7 +5,7 @@
 
 namespace broadside::gpu {
 
-// The rows exist also where the engines cannot run; absent() then says why.
+// The rows exist even if the engines cannot run here; absent() then says why.
 core::EngineRow octree_gpu_row();
 core::EngineRow hash_gpu_row();
 

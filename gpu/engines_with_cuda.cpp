@@ -34,7 +34,7 @@ core::Result<core::Engine> engine_of(std::string_view id, std::string_view twin_
   return engine;
 }
 
-// Of boxes alone.
+// The broad phase of boxes alone, without a simulation.
 core::Result<std::unique_ptr<core::BroadPhase>> broad_phase_of(const core::Settings& settings,
                                                                const PairFinderOptions& options) {
   const bool is_kept = settings.text("broad") == "kept";
@@ -64,7 +64,7 @@ std::string gpu_absent() {
   int count = 0;
   const cudaError_t code = cudaGetDeviceCount(&count);
   if (code == cudaSuccess && count > 0) return {};
-  (void)cudaGetLastError();  // so that the answer is the same when asked again
+  (void)cudaGetLastError();  // clear the error, so that the next call gives the same answer
   if (code == cudaErrorInsufficientDriver) return "no device: the CUDA driver is absent or older than this build needs";
   return "no device";
 }

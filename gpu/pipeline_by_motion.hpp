@@ -23,8 +23,8 @@ class PipelineByMotion final : public core::Dynamics,
                                public core::CountsWork,
                                public core::ChosenByScene {
  public:
-  // twin: the engine whose bits these are. why_not_rigid: what forbids turning bodies, where a setting asks for
-  // something that METHOD alone has; else no error.
+  // twin: the engine that gives the same bits. why_not_rigid: an error if a setting asks for something that only METHOD
+  // has, so that bodies may not turn; else no error.
   PipelineByMotion(const PipelineOptions& translating, const RigidPipelineOptions& turning, std::string twin,
                    core::Status why_not_rigid);
 
@@ -35,7 +35,7 @@ class PipelineByMotion final : public core::Dynamics,
   core::Status read_back(core::FrameRecord& frame, core::RecordLevel level) override {
     return now_->read_back(frame, level);
   }
-  // Frames of turning bodies are copied at once, and wait here.
+  // Frames of turning bodies are copied at once, and are kept here until finish_copy.
   core::Status start_copy(core::RecordLevel level) override;
   core::Status finish_copy(core::FrameRecord& frame) override;
   [[nodiscard]] core::Result<core::DeviceFrame> frame_on_device() override {
@@ -58,7 +58,7 @@ class PipelineByMotion final : public core::Dynamics,
   RigidPipelineOptions turning_options_;
   std::string twin_;
   core::Status why_not_rigid_;
-  core::Dynamics* now_ = &translating_;  // of the scene that was loaded last
+  core::Dynamics* now_ = &translating_;  // the pipeline for the scene that was loaded last
   std::deque<core::FrameRecord> copied_;
 };
 

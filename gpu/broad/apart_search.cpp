@@ -9,11 +9,11 @@ namespace {
 
 using core::Box;
 
-// Of coarse cells: bits for each static box, so that few cells share one, and no more than a GPU's cache holds.
+// Bits of coarse cells for each static box: so many that few cells share a bit. All words together fit a GPU's cache.
 constexpr std::uint64_t kBitsPerBox = 16;
 constexpr std::uint64_t kMostWords = 1ULL << 22U;
 
-// A moving box looks at so many cells of a level along an axis at most: some 4,000 rows of them.
+// The most cells of a level at which a moving box looks along an axis: some 4,000 rows of cells.
 constexpr float kMostCells = 64.0F;
 
 }  // namespace
@@ -62,7 +62,7 @@ core::Result<bool> ApartSearch::load_standing(std::span<const Box> boxes, const 
   PairFinderOptions none_found = options_;
   none_found.pairs_at_once = 1;
   BROADSIDE_TRY(standing_.load_packed(facts.all(), none_found, true));
-  // No box looks for partners: they are put in order alone.
+  // The share is empty, so no box looks for partners: the launch only puts the boxes in order.
   BROADSIDE_TRY(standing_.launch_share({}, stream.get()));
   BROADSIDE_TRY(stream.wait("putting static boxes in order"));
   const BulkView& table = standing_.view().bulk;
@@ -81,7 +81,7 @@ core::Result<bool> ApartSearch::load_standing(std::span<const Box> boxes, const 
   return true;
 }
 
-// `largest_side_m`: of boxes of either kind, as they are now.
+// `largest_side_m`: the largest side of any box of this frame, static or moving.
 core::Status ApartSearch::mark_cells(float largest_side_m, const Stream& stream) {
   const std::uint64_t count = standing_ids_.size();
   const std::uint64_t words = std::min(kMostWords, std::bit_ceil(kBitsPerBox * count / 32 + 1));
@@ -91,7 +91,7 @@ core::Status ApartSearch::mark_cells(float largest_side_m, const Stream& stream)
   StandingCells& cells = cross_.cells;
   cells.words = cell_words_.data();
   cells.word_mask = static_cast<std::uint32_t>(words - 1);
-  // Inverted it is still a normal number.
+  // The clamp keeps the inverse a normal number.
   cells.cells_per_m = 1.0F / std::clamp(largest_side_m, 0x1p-100F, 0x1p100F);
   BROADSIDE_TRY(launch_mark({standing_.view().boxes, static_cast<std::uint32_t>(count), cells}, stream.get()));
   return stream.wait("marking the cells of static boxes");
@@ -131,7 +131,7 @@ core::Result<bool> ApartSearch::load(std::span<const Box> boxes, const Stream& s
 
 core::Status ApartSearch::launch(StreamHandle stream) {
   NamedPairsView share;
-  // Numbers that follow each other need not be looked up, for each pair two.
+  // If the moving boxes have consecutive numbers, no pair has to look up the numbers of its two boxes.
   const bool are_in_a_row = moving_ids_.back() - moving_ids_.front() + 1 == moving_ids_.size();
   if (are_in_a_row)
     share.names.base = moving_ids_.front();

@@ -1,6 +1,6 @@
-// Static and moving boxes apart: static ones are put in order once, and their table stays for as long as they are the
-// same, which the host looks at in every update. Moving boxes look for partners among themselves and in it. Two static
-// boxes are never tested.
+// Searches static and moving boxes apart. Static boxes are put in order once: the host compares them in every update,
+// and their table is kept until one of them changes. Moving boxes look for partners among themselves and in that table.
+// Two static boxes are never tested.
 #pragma once
 
 #include <cstdint>
@@ -12,19 +12,19 @@
 
 namespace broadside::gpu {
 
-// Whether it is worth while: there are enough boxes, and an eighth of them is static.
+// Whether it pays: there are enough boxes, and at least an eighth of them, but not all, are static.
 bool is_worth_keeping_apart(std::span<const std::uint8_t> is_static, const PairFinderOptions& options);
 
 class ApartSearch {
  public:
-  // Before the first boxes with these flags.
+  // Call it before the first boxes with these flags.
   void start(std::span<const std::uint8_t> is_static, const PairFinderOptions& options);
-  // Sound boxes. False: some moving box would cover too many cells of the smallest static ones, or one is longer than
-  // any cell; the set is to be searched together.
+  // The boxes must be sound. Returns false if a moving box would cover too many cells of the smallest static boxes, or
+  // if a box is longer than any cell: search the whole set together then.
   core::Result<bool> load(std::span<const core::Box> boxes, const Stream& stream);
 
   core::Status launch(StreamHandle stream);
-  // After the stream was waited for: whether pairs were lost; grow then makes room for them.
+  // Valid once the stream was waited for. Whether pairs were lost for want of room; grow() then makes room for them.
   [[nodiscard]] bool is_aborted() const { return has_moving() && moving_.is_aborted(); }
   core::Status grow() { return moving_.grow(); }
   [[nodiscard]] FoundPairs found() const { return has_moving() ? moving_.found() : FoundPairs{}; }
@@ -34,7 +34,7 @@ class ApartSearch {
   [[nodiscard]] std::uint64_t bytes() const {
     return standing_.bytes() + moving_.bytes() + cell_words_.bytes() + near_.bytes();
   }
-  // Since start.
+  // These three count since start().
   [[nodiscard]] std::uint64_t static_builds() const { return static_builds_; }
   [[nodiscard]] std::uint64_t static_boxes_kept() const { return static_boxes_kept_; }
   [[nodiscard]] std::uint64_t bytes_to_device() const { return bytes_to_device_; }
@@ -48,16 +48,16 @@ class ApartSearch {
   PairFinderOptions options_;
   std::vector<std::uint32_t> standing_ids_;
   std::vector<std::uint32_t> moving_ids_;
-  std::vector<core::Box> standing_boxes_;  // as the table has them
+  std::vector<core::Box> standing_boxes_;  // as they were when the table was made
   std::vector<PackedBox> packed_;
   BoxSearch standing_;
   BoxSearch moving_;
   DeviceBuffer<std::uint32_t> cell_words_;
-  DeviceBuffer<std::uint32_t> near_;  // and their count
+  DeviceBuffer<std::uint32_t> near_;  // [0]: how many; then the moving boxes that may have partners
   CrossView cross_;
   LaunchShape cross_shape_;
   bool has_table_ = false;
-  float finest_cell_m_ = 0.0F;  // of those that have static boxes
+  float finest_cell_m_ = 0.0F;  // the finest cells that have static boxes
   std::uint64_t static_builds_ = 0;
   std::uint64_t static_boxes_kept_ = 0;
   std::uint64_t bytes_to_device_ = 0;

@@ -8,20 +8,20 @@
 namespace broadside::gpu {
 namespace {
 
-// Some eight overlaps a box in the densest scenes of the campaign; a frame that finds more is found again.
+// The densest scenes of the campaign have some eight overlaps a box; a search that finds more is repeated.
 constexpr std::uint64_t kPairsPerBox = 8;
 
-// What a pass finds in its own coordinates is up to some twenty times what it keeps. Where pairs are handed on in
-// chunks, as many a box: room of its own, so that a chunk is as large as asked for, and more than one box alone can
-// find.
+// A pass finds in its own coordinates up to some twenty times the pairs that it keeps. Where pairs are handed on in
+// chunks, the found ones have room of their own, this many a box. So a chunk can be as large as asked for, and one box
+// alone never finds more than there is room for.
 constexpr std::uint64_t kFoundPerBox = 2;
 
-// Shares are of sets too large to need more than one.
+// Sets that are searched in shares are so large that one lane a box is enough.
 std::uint32_t lanes_for(const BoxFacts& facts, const PairFinderOptions& options) {
   return options.has_shares ? 1 : facts.fit.lanes_per_box;
 }
 
-// The first `kept` boxes stay.
+// Makes room for this many boxes. The first `kept` boxes stay.
 core::Status make_room(DeviceBuffer<PackedBox>& room, std::size_t boxes, std::size_t kept, StreamHandle stream) {
   if (boxes <= room.capacity()) return core::Done{};
   DeviceBuffer<PackedBox> larger;

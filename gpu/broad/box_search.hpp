@@ -1,5 +1,5 @@
-// One search for pairs on the device: its memory, its launches and what they left. A broad phase alone is one of these,
-// or where core/method/box_passes.hpp says so, one for each pass.
+// One search for pairs on the device: its memory, its launches and their result. A broad phase that runs alone consists
+// of one search or, where core/method/box_passes.hpp makes passes, of one for each pass.
 #pragma once
 
 #include <cstdint>
@@ -19,7 +19,7 @@
 
 namespace broadside::gpu {
 
-// What the last launches found, on the device.
+// The pairs that the last launches found, on the device.
 struct FoundPairs {
   const core::Pair* data = nullptr;
   std::uint64_t count = 0;
@@ -27,46 +27,46 @@ struct FoundPairs {
 
 class BoxSearch {
  public:
-  // Memory for these boxes, and the boxes on the device. `is_new`: forget what a set before has left.
+  // Reserves memory for these boxes and copies them to the device. `is_new`: forgets what an earlier set has left.
   core::Status load(const SearchedBoxes& boxes, const PairFinderOptions& options, bool is_new);
 
-  // The same for boxes that are packed on the device: first where to, then what they are.
+  // The same for boxes that are packed on the device: room_for() says where to put them, then load_packed() takes them.
   core::Result<PackedBox*> room_for(std::size_t boxes);
   core::Status load_packed(const BoxFacts& facts, const PairFinderOptions& options, bool is_new);
 
-  // With another place for them: the first `kept` boxes are there too.
+  // As room_for(), but the memory may move: the first `kept` boxes are copied there.
   core::Result<PackedBox*> move_to_room_for(std::size_t boxes, std::size_t kept, StreamHandle stream);
 
-  // After load_packed, where the boxes are in the coordinates of a pass: where to put the boxes as given, of which the
-  // first `kept` are there; which groups' pairs are kept (SettleView).
+  // After load_packed(), if the boxes are in the coordinates of a pass: room_for_given() returns where to put the boxes
+  // as given, and the first `kept` of them stay; settle_on_given() says which groups' pairs are kept (SettleView).
   core::Result<PackedBox*> room_for_given(std::size_t boxes, std::size_t kept, StreamHandle stream);
   core::Status settle_on_given(std::uint32_t owned, const PairFinderOptions& options);
 
   core::Status launch(StreamHandle stream);
-  // Where the options say that there are shares. `share`: names, places, and whether the boxes are in order already.
+  // If the options have shares: searches one. `share`: names, places, and whether the boxes are in order already.
   core::Status launch_share(const NamedPairsView& share, StreamHandle stream);
   [[nodiscard]] bool can_share() const { return start_ == Start::kBulk; }
   [[nodiscard]] Start start() const { return start_; }
-  // By groups of neighboring boxes, until they turned out to have too many pairs.
+  // Whether the search is by groups of neighboring boxes; it no longer is once the groups had too many pairs.
   [[nodiscard]] bool is_grouped() const { return is_grouped_; }
   [[nodiscard]] std::uint32_t lanes_per_box() const { return lanes_per_box_; }
   [[nodiscard]] std::uint32_t box_count() const { return count_; }
   [[nodiscard]] std::uint32_t multiprocessors() const { return shape_.search.multiprocessors; }
-  // After a search of shares: what it left on the device.
+  // After a search of shares: the view with its result on the device.
   [[nodiscard]] const PairsView& view() const { return view_; }
-  // After the stream was waited for: whether pairs were lost; grow then makes room for them.
+  // Valid once the stream was waited for. Whether pairs were lost for want of room; grow() then makes room for them.
   [[nodiscard]] bool is_aborted() const { return outcome_[0].counters.is_aborted != 0; }
   core::Status grow();
   void forget_abort() { outcome_[0].counters.is_aborted = 0; }
-  // What the search tests, where somebody asked.
+  // Counts what the search tests, if `work` was asked to count.
   core::Status count_work(WorkCounter& work, StreamHandle stream);
 
   [[nodiscard]] FoundPairs found() const;
   [[nodiscard]] std::uint64_t room_for_pairs() const { return is_settled() ? settled_.capacity() : pairs_.capacity(); }
-  // How much of its room for pairs the last launch needed: above 1, there was too little. Of a pass, of what it found
-  // or of what it kept, whichever needed more of its own.
+  // How much of the room for pairs the last launch needed: above 1, there was too little. For a pass, found pairs and
+  // kept pairs have rooms of their own, and the larger of the two shares is returned.
   [[nodiscard]] double fullness() const;
-  // The pairs of the last launch, behind those that are there.
+  // Appends the pairs of the last launch.
   core::Status append_pairs(std::vector<core::Pair>& to) const;
 
   [[nodiscard]] const Outcome& outcome() const { return outcome_[0]; }

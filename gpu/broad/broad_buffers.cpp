@@ -17,22 +17,23 @@ constexpr std::uint64_t kLeastBuckets = 1024;
 constexpr std::uint64_t kMostBuckets = 1ULL << 31U;
 
 constexpr float kSlack = 1.0F + 0x1p-10F;
-// Inverted it is still a normal number.
+// So large that its inverse is still a normal number.
 constexpr float kMostCell_m = 0x1p125F;
 
-// The size of the largest cells. A box may grow by a few units in the last place when it is placed, and a cell must be
-// many such units of the coordinates, whatever it holds. Bulk pairs allow for that rounding in their search
-// (bulk_search.cuh), so there a cell may be as small as any box's may be: 2^-18 of the coordinates, see bulk_level.
+// The size of the largest cells. A box may grow by a few units in the last place when it is placed, so a cell must be
+// many units in the last place of the coordinates long, whatever it holds. The search of bulk pairs allows for that
+// rounding (bulk_search.cuh), so its largest cell may be as small as the smallest cell of any box: 2^-18 of the
+// coordinates, see bulk_level.
 float largest_cell_m(Start start, const BoxFacts& facts) {
   const float least_share = start == Start::kBulk ? 0x1p-18F : 0x1p-17F;
-  // Halved twenty times, or inverted, it is still a normal number.
+  // So large that a cell that is halved twenty times, and its inverse, are still normal numbers.
   constexpr float kLeast = 0x1p-100F;
   const float wanted =
       std::max({facts.largest_side_m * kSlack * facts.fit.cell_scale, facts.coordinate_range_m * least_share, kLeast});
   return std::min(wanted, kMostCell_m);
 }
 
-// The most bits an axis that fit beside the 5 bits of a row, which x shares.
+// The most bits for each axis that fit beside the 5 bits of a row, which are bits of x too.
 std::uint32_t axis_bits(std::uint64_t buckets) {
   const auto all = static_cast<std::uint32_t>(std::bit_width(buckets)) - 1U;
   std::uint32_t bits = 1;
@@ -136,7 +137,7 @@ void BroadBuffers::refit(const BoxFacts& facts) {
   GridView& grid = view_.grid;
   grid.cell_m = largest_cell_m(view_.start, facts);
   grid.cells_per_m = 1.0F / grid.cell_m;
-  // Half a cell of room below, so that what lies a little outside is still near in the table.
+  // One cell of room below, so that what lies a little outside is still near in the table.
   for (int axis = 0; axis < 3; ++axis)
     grid.first_cell[axis] = static_cast<std::int32_t>(
         std::clamp(std::floor(facts.low_corner[axis] / grid.cell_m) - 1.0F, -1048576.0F, 1048576.0F));

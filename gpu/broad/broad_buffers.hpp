@@ -1,4 +1,4 @@
-// Device memory of a broad phase, whichever it is.
+// Device memory of a broad phase of any kind.
 #pragma once
 
 #include <cstdint>
@@ -21,13 +21,13 @@ enum class Broad { kTree, kOctree, kHash, kBrute };
 // large GPU, and take less than the grid's three passes.
 constexpr std::uint32_t kLeastBodiesForGrid = 2048;
 
-// From here on a broad phase alone searches by bulk_search.cuh, a lane a box.
+// From this many boxes on a broad phase that runs alone searches by bulk_search.cuh, with a lane for each box.
 constexpr std::uint32_t kLeastBoxesForBulk = 50000;
-// From here on the entries of bulk pairs are more than a cache holds, and go to bins first.
+// From this many boxes on the entries of bulk pairs do not fit a cache, and go to bins first.
 constexpr std::uint32_t kLeastBoxesForBins = 1000000;
 
-// Worlds over all exponents are crowded on every level: from here on they are bulk pairs. 30,000 of them take 0.54 ms
-// on an H100 by the search of fewer boxes, 0.44 ms as bulk pairs.
+// Worlds over all exponents are crowded on every level: from this many boxes on they are bulk pairs. 30,000 of them
+// take 0.54 ms on an H100 by the search of fewer boxes, 0.44 ms as bulk pairs.
 constexpr std::uint32_t kLeastBoxesOfExponentsForBulk = 20000;
 
 // What is known of the boxes before the first frame.
@@ -36,34 +36,34 @@ struct BoxFacts {
   float largest_side_m = 0.0F;
   float coordinate_range_m = 0.0F;  // the largest magnitude of a coordinate
   core::Vec3 low_corner;            // about where the world begins
-  std::uint64_t hash_entries = 0;   // of boxes of these sizes, wherever they are; more is found out later
+  std::uint64_t hash_entries = 0;   // for boxes of these sizes anywhere; a frame that needs more is repeated
   core::Box domain;                 // of the published scene octree
-  BulkFit fit;                      // of bulk pairs alone
+  BulkFit fit;                      // for bulk pairs alone
 };
 
-// Cells that a closed interval of this length can touch, wherever it is; and so of a box with these sides.
+// How many cells a box with these sides can touch, wherever it is.
 std::uint64_t hash_cells_of(core::Vec3 side_m, float cell_m);
 
-// Whether no box is longer than the largest cell that a grid can have, 2^125 m. Where one is, its partners may lie in
-// cells where nobody looks for them: all pairs of boxes are tested in tiles instead, n (n - 1) / 2 of them.
+// Whether no box is longer than the largest cell that a grid can have, 2^125 m. If a box is longer, its partners may
+// lie in cells where no search looks for them: then all n (n - 1) / 2 pairs of boxes are tested in tiles instead.
 bool fits_grid(const BoxFacts& facts);
 
-// Of a grid.
+// The number of buckets of a grid.
 std::uint64_t grid_buckets(std::uint64_t bodies);
-// Of bulk pairs.
+// The number of buckets of bulk pairs.
 std::uint64_t bulk_buckets(const BoxFacts& facts);
 
 class BroadBuffers {
  public:
-  // `blocks`: of the launch that sorts.
+  // `blocks`: how many the launch that sorts has.
   core::Status load(Start start, const BoxFacts& facts, float hash_cell_m, core::Variant variant,
                     const BinsShape& bins = {}, std::uint32_t blocks = 0);
-  // The facts that a new set of boxes may change.
+  // Takes the facts that a new set of boxes may change.
   void refit(const BoxFacts& facts);
   // Makes room for what the aborted frame demanded.
   core::Status grow(const Counters& demanded);
   void fill(BroadView& view) const;
-  // Of Start::kBulk.
+  // For Start::kBulk.
   void fill(BulkView& view) const;
   [[nodiscard]] std::uint64_t bytes() const;
 

@@ -1,4 +1,4 @@
-// What the broad phase on the device is given, by value.
+// The views that kernels of the broad phase get by value.
 #pragma once
 
 #include <cstdint>
@@ -30,14 +30,15 @@ enum class FindStep : std::uint32_t {
 };
 static_assert(static_cast<std::size_t>(FindStep::kSearch) < core::kStageCount, "Outcome has room for their ends");
 
-// An append buffer. `stored` never passes its capacity; `demanded` counts on, so nothing is lost unseen.
+// An append buffer. Nothing is stored past its capacity, but the count of what was demanded goes on, so that no loss is
+// unnoticed.
 template <typename T>
 struct AppendView {
   T* items = nullptr;
   std::uint64_t capacity = 0;
 };
 
-// Counters of one frame; all are what was demanded.
+// Counters of one frame; they count what was demanded, not what was stored.
 struct Counters {
   unsigned long long pairs = 0;
   unsigned long long confirmed = 0;
@@ -47,13 +48,13 @@ struct Counters {
   unsigned long long entry_cursor = 0;  // entries given out to buckets
   unsigned long long listed = 0;        // places given out in the lists of bodies
   unsigned long long measured = 0;      // confirmed pairs given out to warps that measure their proximity
-  unsigned long long group_pairs = 0;   // of groups of boxes: grouped_view.hpp
-  unsigned long long digest = 0;        // its blocks' shares until now
+  unsigned long long group_pairs = 0;   // pairs of groups of boxes: grouped_view.hpp
+  unsigned long long digest = 0;        // sum of the shares of its blocks so far
   std::uint32_t oversized = 0;          // bodies in too many cells of the spatial hash
-  std::uint32_t arrived = 0;            // of PartialGridTeam
+  std::uint32_t arrived = 0;            // arrivals at the barrier of PartialGridTeam
   std::uint32_t colors = 0;
   std::uint32_t is_aborted = 0;
-  std::uint32_t digested = 0;  // blocks of the digest's kernel that have entered their share
+  std::uint32_t digested = 0;  // blocks of the digest's kernel that have added their share
 };
 
 // Buckets are in chunks of kBucketChunk, each with one more word in `begin`: bucket b has the entries begin[place(b)]
@@ -65,8 +66,8 @@ constexpr std::uint64_t bucket_words(std::uint64_t buckets) {
 
 struct GridView {
   std::uint32_t bucket_mask = 0;    // buckets - 1; a power of two of buckets, whole chunks
-  std::uint32_t axis_bits = 0;      // of each axis that go into a bucket as they are
-  std::int32_t first_cell[3] = {};  // of level 0: where the world's lower corner is
+  std::uint32_t axis_bits = 0;      // how many bits of each coordinate go into a bucket unhashed
+  std::int32_t first_cell[3] = {};  // the cell of level 0 that has the world's lower corner
   std::uint32_t* count = nullptr;   // [buckets]; zero between frames
   std::uint32_t* begin = nullptr;   // [bucket_words(buckets)]
   std::uint32_t* rank = nullptr;    // [bodies] place within the bucket

@@ -1,4 +1,4 @@
-// What the search of bulk pairs on the device is given, by value.
+// The views that kernels of bulk pairs get by value.
 #pragma once
 
 #include <cstdint>
@@ -20,21 +20,22 @@ struct alignas(16) BulkEntry {
   std::uint32_t tag = 0;  // see bulk_cells.cuh
 };
 
-// Runs of entries are read some at a time, also past their ends: what is read behind the last one belongs to no box.
+// Runs of entries are read several at a time, also past their ends: this many entries behind the last one belong to no
+// box.
 constexpr std::uint32_t kEntriesBehind = 12;
 
 // How many bins boxes go to: see bulk_bins.cuh.
 struct BinsShape {
   std::uint32_t bins = 0;          // 0: there are too few boxes to need any
-  std::uint32_t coarse_shift = 0;  // 2^coarse_shift bins are a coarse bin, to which boxes go first; 0: at once to bins
-  std::uint32_t bins_of_tile = 0;  // a block's tile counts so many at a time
-  std::uint32_t shared_bytes = 0;  // of a block
+  std::uint32_t coarse_shift = 0;  // a coarse bin, to which boxes go first, is 2^coarse_shift bins; 0: none
+  std::uint32_t bins_of_tile = 0;  // how many a block's tile counts at a time
+  std::uint32_t shared_bytes = 0;  // shared memory of a block
   [[nodiscard]] BROADSIDE_HD std::uint32_t coarse_bins() const {
     return coarse_shift == 0 ? 0U : (bins >> coarse_shift) + 1U;
   }
 };
 
-// What puts boxes in order by chunk of buckets, so that memory is written in runs.
+// The arrays by which boxes are put in order, chunk of buckets by chunk, so that memory is written in runs.
 struct BinsView {
   BinsShape shape;
   std::uint32_t* chunk_count = nullptr;    // [chunks]; zero between frames
@@ -44,20 +45,20 @@ struct BinsView {
   std::uint32_t* last_chunk = nullptr;     // [bins]
   std::uint32_t* cursor = nullptr;         // [bins] entries given out to blocks
   std::uint32_t* coarse_cursor = nullptr;  // [coarse bins] likewise
-  std::uint32_t* whole_bucket = nullptr;   // [bodies] where there are coarse bins: buckets of entries by coarse bin,
-                                           // which lie where those by bucket will
+  std::uint32_t* whole_bucket = nullptr;   // [bodies] if there are coarse bins: the buckets of entries by coarse bin,
+                                           // which lie in BulkView::entries until bins are made
   BulkEntry* entries = nullptr;            // [bodies] by bin
-  std::uint16_t* bucket = nullptr;         // [bodies] of these entries, within their group
+  std::uint16_t* bucket = nullptr;         // [bodies] buckets of these entries, counted within a group of chunks
 };
 
 struct BulkView {
   std::uint32_t bucket_mask = 0;    // buckets - 1; a power of two of buckets, whole chunks
-  std::uint32_t axis_bits = 0;      // of y and of z that go into a bucket as they are
-  std::uint32_t x_bits = 0;         // likewise
-  std::uint32_t row_bits = 0;       // of x_bits, those of the cells that are sure to be neighboring buckets
+  std::uint32_t axis_bits = 0;      // how many bits of y and of z go into a bucket unhashed
+  std::uint32_t x_bits = 0;         // how many bits of x do
+  std::uint32_t row_bits = 0;       // those of x_bits within which neighboring cells are neighboring buckets
   std::uint32_t levels_apart = 2;   // a power of two, as in BulkFit
   std::uint32_t x_halvings = 0;     // as there
-  std::int32_t first_cell[3] = {};  // of level 0, as long as they are wide: where the world's lower corner is
+  std::int32_t first_cell[3] = {};  // the cell of level 0 (before halving along x) that has the world's lower corner
   std::uint32_t* count = nullptr;   // [buckets]; zero between frames
   std::uint32_t* begin = nullptr;   // [bucket_words(buckets)]
   std::uint32_t* rank = nullptr;    // [bodies] place within the bucket

@@ -1,4 +1,4 @@
-// The launch that finds the pairs of moving boxes with standing ones, whose table stays from frame to frame.
+// The launch that finds the pairs of moving boxes with standing ones, whose table is kept from frame to frame.
 #pragma once
 
 #include <cstdint>
@@ -14,8 +14,8 @@
 
 namespace broadside::gpu {
 
-// Which cells, of one coarse size, have standing boxes in them: a bit for each, several cells of the world may share
-// one. Most moving boxes of a large world are near nothing that stands, and need look no further.
+// Which cells of one coarse size have standing boxes in them. Each cell has a bit, which several cells of the world may
+// share. In a large world most moving boxes are near no standing box, and need not be searched further.
 struct StandingCells {
   std::uint32_t* words = nullptr;  // [word_mask + 1], a power of two of them; null: every cell may have some
   std::uint32_t word_mask = 0;
@@ -24,22 +24,22 @@ struct StandingCells {
 };
 
 struct MarkView {
-  const PackedBox* boxes = nullptr;  // no longer than a cell
+  const PackedBox* boxes = nullptr;  // none is longer than a cell
   std::uint32_t count = 0;
-  StandingCells cells;  // words are zero before
+  StandingCells cells;  // words must be zero before the launch
 };
 // Asynchronous.
 core::Status launch_mark(const MarkView& view, StreamHandle stream);
 
 struct CrossView {
-  BulkView standing;                          // in order
-  const PackedBox* standing_boxes = nullptr;  // low_tag = the caller's number, as of the others
+  BulkView standing;                          // their table, in order
+  const PackedBox* standing_boxes = nullptr;  // low_tag = the caller's number, as in moving_boxes
   StandingCells cells;
   const PackedBox* moving_boxes = nullptr;
-  std::uint32_t count = 0;              // of them
+  std::uint32_t count = 0;              // of moving boxes
   std::uint32_t* near = nullptr;        // [count] moving boxes that may have partners
-  std::uint32_t* near_count = nullptr;  // of them; zero between frames
-  // Behind what is there: the pairs that the moving ones have among each other.
+  std::uint32_t* near_count = nullptr;  // how many; zero between frames
+  // Already has the pairs of moving boxes with each other; the pairs with standing ones are appended.
   AppendView<core::Pair> pairs;
   Counters* counters = nullptr;
   unsigned long long* barrier = nullptr;

@@ -26,7 +26,7 @@ struct Dealt {
 
 }  // namespace
 
-// The order within a part is that of the boxes.
+// Within a part, boxes stay in the order in which they were given.
 template <typename BoxAt>
 void DealtBoxes::deal(std::size_t boxes, const core::SpaceCut& cut, const BoxAt& box_at) {
   std::vector<FactsOfBoxes> of_part(cut.parts());
@@ -63,7 +63,7 @@ void DealtBoxes::deal(std::size_t boxes, const core::SpaceCut& cut, const BoxAt&
     facts.largest_side_m = all.largest_side_m;
     facts.coordinate_range_m = all.coordinate_range_m;
     facts.low_corner = bounds.min;
-    // What reaches over a face begins at most its length before it.
+    // A box that reaches over a face begins at most its own length before the face.
     if (part > 0) facts.low_corner[cut.axis] = std::max(bounds.min[cut.axis], cut.faces[part - 1] - all.largest_side_m);
   }
 }

@@ -14,21 +14,21 @@
 
 namespace broadside::gpu {
 
-// More boxes have numbers that the search of bulk pairs cannot hold beside a mark of one bit, in a table of 2^31
-// buckets.
+// The search of bulk pairs keeps a mark of one bit beside a box's number, and its table has 2^31 buckets: numbers of
+// more boxes do not fit.
 constexpr std::uint64_t kMostBoxes = 1ULL << 30U;
-// Exit code 3, with how many there are.
+// An error, with exit code 3, if there are more; it says how many boxes there are.
 core::Status check_box_limit(std::uint64_t boxes);
 
 class DealtBoxes {
  public:
-  // An error names the first that is no box, by the caller's number.
+  // An error names the first one that is not a box, by the caller's number.
   core::Status take(std::span<const core::Box> boxes, std::span<const std::uint8_t> is_static,
                     const core::SpaceCut& cut);
-  // Those of a pass, in its coordinates, which the cut is in too. They are sound.
+  // Takes the boxes of a pass, in its coordinates; the cut must be in these coordinates too. The boxes must be sound.
   void take(std::span<const core::Box> boxes, std::span<const std::uint8_t> is_static, const core::SpaceCut& cut,
             const core::PassPlan& plan, const core::BoxPass& pass);
-  // What fits all boxes of a set: fitted_cells.hpp.
+  // The fit for all boxes of a set: fitted_cells.hpp.
   [[nodiscard]] BulkFit fitted(std::span<const core::Box> boxes) const;
   void set_fit(const BulkFit& fit) {
     for (BoxFacts& facts : facts_) facts.fit = fit;
@@ -38,14 +38,15 @@ class DealtBoxes {
   [[nodiscard]] std::span<const PackedBox> boxes(std::uint32_t part) const {
     return std::span(packed_).subspan(base_[part], base_[part + 1] - base_[part]);
   }
-  // Of a pass, these boxes as SettleView has them; else none.
+  // If this is a pass: these boxes as SettleView has them; else none.
   [[nodiscard]] std::span<const PackedBox> given_boxes(std::uint32_t part) const {
     if (given_boxes_.empty()) return {};
     return std::span(given_boxes_).subspan(base_[part], base_[part + 1] - base_[part]);
   }
   // The number of the part's first box.
   [[nodiscard]] std::uint32_t base(std::uint32_t part) const { return base_[part]; }
-  // Of the boxes that begin in the part, but for the sizes, which are those of all boxes: any may reach into it.
+  // Facts of the boxes that begin in the part, except sizes, which are those of all boxes, because any box may reach
+  // into it.
   [[nodiscard]] const BoxFacts& facts(std::uint32_t part) const { return facts_[part]; }
   // The caller's number of a box.
   [[nodiscard]] std::uint32_t given(std::uint32_t number) const { return given_[number]; }

@@ -18,7 +18,7 @@ BoxFacts facts_of(const BoxMeasure& measure, std::uint32_t count) {
   return facts;
 }
 
-// Copies of the host go their own way: they are waited for before the stream's work begins.
+// Copies from the host do not go through the stream, so they are waited for before the stream's work begins.
 core::Status DevicePacking::reserve(std::span<const std::uint8_t> is_static) {
   const BoxMeasure of_none[2];
   BROADSIDE_TRY(flags_.upload(is_static, "flags of static boxes"));

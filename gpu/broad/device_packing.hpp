@@ -1,4 +1,4 @@
-// Packs boxes that lie on the device already, and learns there what the host would have learned of them.
+// Packs boxes that lie on the device already, and finds the facts about them that the host needs.
 #pragma once
 
 #include <cstdint>
@@ -14,23 +14,23 @@
 
 namespace broadside::gpu {
 
-// Of sound boxes.
+// The boxes must be sound.
 BoxFacts facts_of(const BoxMeasure& measure, std::uint32_t count);
 
 class DevicePacking {
  public:
-  // Before the first boxes with these flags.
+  // Call it before the first boxes with these flags.
   void start() { has_flags_ = false; }
 
-  // What the stream is asked for from now on comes after what may still write these boxes.
+  // Work that is put into the stream from now on begins after any work that may still write these boxes.
   core::Status wait_behind(const core::DeviceBoxes& given, const Stream& stream);
 
-  // Waits: when it returns the boxes were read, and are in `to` with these flags. An error names the first that is no
-  // box. `is_static`: of as many boxes.
+  // Waits: when it returns, the boxes were read and are in `to` with these flags. An error names the first one that is
+  // not a box. `is_static` must have as many flags.
   core::Result<BoxFacts> pack(const core::DeviceBoxes& given, std::span<const std::uint8_t> is_static, PackedBox* to,
                               const Stream& stream);
 
-  // Waits. Those of the boxes, which are not packed for it.
+  // Waits. Returns these boxes; they need not be packed for it.
   core::Result<std::vector<core::Box>> gather(const core::DeviceBoxes& given, std::span<const std::uint32_t> which,
                                               const Stream& stream);
 
@@ -38,12 +38,12 @@ class DevicePacking {
   core::Status reserve(std::span<const std::uint8_t> is_static);
 
   DeviceBuffer<std::uint8_t> flags_;
-  DeviceBuffer<BoxMeasure> measures_;  // that of no box, which each packing begins with, and that of the last boxes
+  DeviceBuffer<BoxMeasure> measures_;  // [0]: of no box, with which each packing begins; [1]: of the last boxes
   Mapped<BoxMeasure, 1> measured_;
   DeviceBuffer<std::uint32_t> which_;
   DeviceBuffer<core::Box> gathered_;
   StreamMark written_;
-  bool has_flags_ = false;  // and the measure of no box
+  bool has_flags_ = false;  // and whether measures_[0] is there
 };
 
 }  // namespace broadside::gpu

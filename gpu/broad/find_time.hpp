@@ -7,8 +7,8 @@
 
 namespace broadside::gpu {
 
-// `whole_s` is the time between two events around the launches, where somebody took it; the steps are read off the
-// GPU's clock within it; of several passes, their sums.
+// `whole_s` is the time between two events around the launches, or 0 if no events were set. The steps are read off the
+// GPU's clock within that time. Several passes give their sums.
 struct FindTime {
   double whole_s = 0.0;
   double count_s = 0.0;    // boxes into cells

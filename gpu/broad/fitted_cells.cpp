@@ -14,18 +14,19 @@ namespace {
 using core::Box;
 
 constexpr std::size_t kSample = 1024;
-// Of more boxes than that a thousand are no neighbors of each other. There a thousand look at a larger sample.
+// From this many boxes on a sample of a thousand boxes has no neighbors in it. Then a thousand boxes look for partners
+// in a larger sample.
 constexpr std::size_t kLeastForLookers = 1U << 20U;
 constexpr std::size_t kBoxesPerSampled = 64;
 constexpr std::size_t kMostSampled = 1U << 20U;
-// Half an octave apart.
+// They are half an octave apart.
 constexpr std::array<float, 4> kScales{1.0F, 1.41421356F, 2.0F, 2.82842712F};
-// Tests that were counted in the sample: below, their number is off by a tenth by chance.
+// With fewer tests counted in the sample, their number is off by a tenth by chance.
 constexpr double kLeastCounted = 100.0;
 constexpr double kWorthwhile = 0.8;
-// Looking a row of cells up costs as much as reading four entries of it, of which a lane reads four at once.
+// Looking up a row of cells costs as much as reading four of its entries, which is what a lane reads at once.
 constexpr double kTestsOfRow = 4.0;
-// Of those that have boxes; finest first out of reach: a box smaller than 4^-10 of the largest is as good as that.
+// Levels that are told apart, coarsest first: boxes on finer levels count as boxes of the last one.
 constexpr int kLevels = 10;
 
 struct Cells {
@@ -34,8 +35,8 @@ struct Cells {
   [[nodiscard]] double size_m(int level) const { return std::ldexp(largest_m, -levels_apart * level); }
 };
 
-// A box as the search sees it: its level, counted among those that have boxes, its cell there, and for each level the
-// cells that it looks at.
+// A box as the search sees it: its level, counted from the coarsest in steps of `levels_apart`, its cell there, and for
+// each level the cells that it looks at.
 struct Seen {
   int level = 0;
   std::int64_t cell[3] = {};
@@ -44,7 +45,7 @@ struct Seen {
 };
 
 std::int64_t cell_at(float v, double cell_m) {
-  // Beyond this, cells of the search are one, too.
+  // The search, too, takes all cells beyond this for one.
   constexpr double kFarthest = 1e9;
   return static_cast<std::int64_t>(std::clamp(std::floor(static_cast<double>(v) / cell_m), -kFarthest, kFarthest));
 }
@@ -72,10 +73,10 @@ bool looks_at(const Seen& a, const Seen& b) {
          low[2] <= b.cell[2] && b.cell[2] <= high[2];
 }
 
-// What looking for partners of a sample of boxes comes to.
+// The work of looking for partners of a sample of boxes.
 struct Looked {
-  double tests = 0.0;  // of pairs within the sample
-  double rows = 0.0;   // of cells, a box
+  double tests = 0.0;  // tests of pairs within the sample
+  double rows = 0.0;   // rows of cells, per box
 };
 
 std::uint32_t levels_of(const std::vector<Seen>& sample) {
@@ -84,8 +85,8 @@ std::uint32_t levels_of(const std::vector<Seen>& sample) {
   return levels;
 }
 
-// Rows of cells that a box looks at: on its own level some half of those around it, where two boxes would find each
-// other twice.
+// Rows of cells that a box looks at. On its own level these are about half of those around it, since of two boxes of
+// one level only one looks for the other.
 double rows_of(const Seen& s, std::uint32_t levels) {
   double rows = 0.0;
   for (int level = 0; level <= s.level; ++level) {
@@ -96,16 +97,17 @@ double rows_of(const Seen& s, std::uint32_t levels) {
   return rows;
 }
 
-// Which cell of which level that is; cells whose numbers differ by a multiple of 2^20 are seldom both in a sample.
-// Cells that follow each other in z have keys that do, but for one in 2^20 far from the origin.
+// A key for a cell of a level. Cells whose numbers differ by a multiple of 2^20 have one key, but are seldom both in a
+// sample. Neighbors in z have consecutive keys, except for one in 2^20, far from the origin.
 std::uint64_t key_of(int level, std::int64_t x, std::int64_t y, std::int64_t z) {
   constexpr std::uint64_t kMask = (1U << 20U) - 1U;
   const auto bits = [](std::int64_t v) { return static_cast<std::uint64_t>(v + (1 << 19)) & kMask; };
   return ((static_cast<std::uint64_t>(level) << 20U | bits(x)) << 20U | bits(y)) << 20U | bits(z);
 }
 
-// What some boxes of the sample, evenly chosen, look at in all of it, counted as the search does: boxes of coarser
-// levels, and of each two of one level one from the other. So it is a share of the tests of all.
+// The work of some boxes of the sample, evenly chosen, that look for partners in the whole sample. It is counted as the
+// search does it: a box tests boxes of coarser levels, and of two boxes of one level only one tests the other. So it is
+// a share of the work of all.
 Looked look_by_some(const std::vector<Box>& sample, const Cells& shape) {
   std::vector<std::uint64_t> cells;
   cells.reserve(sample.size());
@@ -135,7 +137,7 @@ Looked look_by_some(const std::vector<Box>& sample, const Cells& shape) {
   return all;
 }
 
-// Pairs of the sample of which one looks at the other.
+// The work of all boxes of the sample: pairs of which one box looks at the other.
 Looked look_by_all(const std::vector<Box>& sample, const Cells& cells) {
   std::vector<Seen> all;
   all.reserve(sample.size());
@@ -151,13 +153,14 @@ Looked look_by_all(const std::vector<Box>& sample, const Cells& cells) {
   return looked;
 }
 
-// Rows of cells with fewer tests than that are done at one step or two by one lane; the other three would wait.
+// One lane finishes a row of cells with fewer tests than this in one step or two; three more lanes would only wait.
 constexpr double kLongRow = 10.0;
-// Of more boxes every warp has several turns, and those of a crowd do not last longer than all others together.
+// With more boxes every warp takes boxes several times, and a warp in a crowd does not take longer than all the others
+// do.
 constexpr std::uint32_t kMostSharedBoxes = 300'000;
 
-// Where a box has so many tests in its cells, groups of neighboring boxes are searched sooner: on one H100 spheres with
-// 40 tests a box take 0.090 instead of 0.099 ms, uniform boxes with 30 take 0.066 instead of 0.055.
+// Where a box has this many tests in its cells, searching by groups of neighboring boxes is faster: on one H100 spheres
+// with 40 tests a box take 0.090 instead of 0.099 ms, uniform boxes with 30 take 0.066 instead of 0.055.
 constexpr double kTestsForGroups = 35.0;
 // Groups take some 50 bytes a box more.
 constexpr std::uint32_t kMostGroupedBoxes = 16'000'000;
@@ -197,11 +200,11 @@ BulkFit bulk_fit_by_sample(const std::vector<Box>& sample, const BoxFacts& facts
       fit.cell_scale = scale;
     }
   }
-  // Each of the sample stands for as many boxes: so many times more others are in its cells.
+  // Each box of the sample stands for this many boxes, so its cells have that many times as many others.
   const double boxes_per_sampled = static_cast<double>(facts.count) / static_cast<double>(sample.size());
   const auto tests_a_box = [&](const Looked& l) { return l.tests / static_cast<double>(kSample) * boxes_per_sampled; };
   const auto cost = [&](const Looked& l) { return kTestsOfRow * l.rows + tests_a_box(l); };
-  // Levels that are farther apart: fewer rows of cells, larger cells for some boxes.
+  // Levels farther apart mean fewer rows of cells to look at, but larger cells for some boxes.
   const double largest_m = static_cast<double>(facts.largest_side_m) * static_cast<double>(fit.cell_scale);
   const Looked sparse = look(sample, {largest_m, 4});
   if (cost(sparse) <= kWorthwhile * cost(best)) {

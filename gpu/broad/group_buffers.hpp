@@ -13,9 +13,9 @@ namespace broadside::gpu {
 class GroupBuffers {
  public:
   core::Status load(const BoxFacts& facts);
-  // The facts that a new set of boxes may change.
+  // Takes the facts that a new set of boxes may change.
   void refit(const BoxFacts& facts);
-  // Makes room for as many pairs of groups. False: there are so many that cells are faster.
+  // Makes room for this many pairs of groups. Returns false if there are so many that a search by cells is faster.
   core::Result<bool> grow(std::uint64_t group_pairs);
   [[nodiscard]] GroupView view() const;
   [[nodiscard]] std::uint64_t bytes() const;

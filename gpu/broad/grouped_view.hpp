@@ -1,4 +1,4 @@
-// A search for pairs by groups of neighboring boxes: what it is given on the device, by value, and its launch.
+// A search for pairs by groups of neighboring boxes: its launch, and the view that the kernel gets by value.
 // grouped_kernel.cu and on_host/grouped_on_host.cpp implement it.
 #pragma once
 
@@ -13,13 +13,13 @@
 
 namespace broadside::gpu {
 
-// Boxes of a group, a lane each; and groups of a cluster.
+// How many boxes a group has, one for each lane, and how many groups a cluster.
 constexpr std::uint32_t kGroupSize = 32;
 
 // Boxes go to cells of a cube around all of them, 2^axis_bits on each axis, along a Morton curve. Cells are counted in
 // chunks of kBucketChunk; each chunk's entries fill whole groups, the last of which has empty boxes behind its own.
 struct GroupView {
-  core::Vec3 corner;  // of the cube
+  core::Vec3 corner;  // lower corner of the cube
   float cells_per_m = 0.0F;
   std::uint32_t axis_bits = 0;
   std::uint32_t* count = nullptr;        // [cells] boxes; zero between searches
@@ -27,10 +27,10 @@ struct GroupView {
   std::uint32_t* rank = nullptr;         // [boxes] place within the cell
   std::uint32_t* chunk_room = nullptr;   // [chunks] entries, a multiple of kGroupSize
   std::uint32_t* entry_count = nullptr;  // [1] entries of all chunks
-  PackedBox* entries = nullptr;          // [as many as grouped_entries] low_tag = box, high_tag: 1 = static, or none
-  PackedBox* groups = nullptr;           // around kGroupSize entries each: low_tag = group, high_tag: 1 = all static
-  PackedBox* clusters = nullptr;         // around kGroupSize groups each, likewise
-  AppendView<core::Pair> group_pairs;    // of groups that overlap, or are one
+  PackedBox* entries = nullptr;   // [as many as grouped_entries] low_tag = box, high_tag: 1 = static; or an empty box
+  PackedBox* groups = nullptr;    // around kGroupSize entries each: low_tag = group, high_tag: 1 = all static
+  PackedBox* clusters = nullptr;  // around kGroupSize groups each, likewise
+  AppendView<core::Pair> group_pairs;  // pairs of groups that overlap, and each group with itself
 
   [[nodiscard]] BROADSIDE_HD std::uint32_t cells() const { return 1U << 3 * axis_bits; }
   [[nodiscard]] BROADSIDE_HD std::uint32_t chunks() const { return cells() / kBucketChunk; }

@@ -25,7 +25,7 @@ struct KeptFinder::Impl {
 
   PairFinderOptions plain_options;
   PairFinderOptions fat_options;
-  PairFinder plain;  // of boxes as they are
+  PairFinder plain;  // searches the boxes as they are
   BoxSearch fat;
   Stream stream;
   DevicePacking packing;
@@ -36,17 +36,17 @@ struct KeptFinder::Impl {
   DeviceBuffer<PackedBox> placed;
   DeviceBuffer<std::uint32_t> place_of;
   DeviceBuffer<core::Pair> pairs;
-  DeviceBuffer<KeptCounts> counts;    // zeros, and this frame's
-  DeviceBuffer<BoxMeasure> measures;  // that of no box, and that of the fat ones
+  DeviceBuffer<KeptCounts> counts;    // [0]: zeros; [1]: this frame's
+  DeviceBuffer<BoxMeasure> measures;  // [0]: of no box; [1]: of the fat boxes
   Mapped<KeptCounts, 1> counted;
   Mapped<BoxMeasure, 1> measured;
-  bool is_fat = false;  // the last search was of fat boxes
+  bool is_fat = false;  // the last search was one of fat boxes
   bool has_candidates = false;
   bool is_kept = false;   // this frame needs no search
   bool is_plain = false;  // the plain finder has been loaded
   bool has_served = true;
-  std::uint32_t in_vain = 0;  // searches in a row whose candidates served no further frame
-  std::uint32_t pause = 0;    // frames to search as they are
+  std::uint32_t in_vain = 0;  // how many searches in a row had candidates that served no further frame
+  std::uint32_t pause = 0;    // for how many more frames the boxes are searched as they are
   std::uint64_t searched_frames = 0;
   std::uint64_t kept_frames = 0;
   std::uint64_t candidates_tested = 0;
@@ -61,7 +61,7 @@ struct KeptFinder::Impl {
   core::Status choose();
   core::Status search_fat();
   core::Status test_candidates();
-  // Whether the frame's boxes are to be looked at; else they are the plain finder's alone.
+  // Whether this class reads the frame's boxes; else they go to the plain finder only.
   [[nodiscard]] bool looks() const { return has_candidates || pause == 0; }
 };
 
@@ -109,7 +109,7 @@ core::Status KeptFinder::Impl::read_counts(const char* what) {
   return stream.wait(what);
 }
 
-// `given`: on the device; null: packed already.
+// Finds out whether every box is within its fat one. `given`: boxes on the device; null: they are packed already.
 core::Status KeptFinder::Impl::look_within(const float* given) {
   is_kept = false;
   if (!has_candidates) return core::Done{};
@@ -121,7 +121,8 @@ core::Status KeptFinder::Impl::look_within(const float* given) {
   return core::Done{};
 }
 
-// A fat box may reach beyond the largest float, or be longer than any cell; then boxes are searched as they are.
+// Makes the fat boxes. If one reaches beyond the largest float, or is longer than any cell, is_fat stays false and the
+// boxes are searched as they are.
 core::Status KeptFinder::Impl::fatten() {
   auto room = fat.room_for(view.count);
   if (!room.ok()) return room.error();
@@ -137,7 +138,7 @@ core::Status KeptFinder::Impl::fatten() {
   return core::Done{};
 }
 
-// How a frame is searched that is not of kept pairs, once its boxes are packed.
+// Chooses how to search a frame that needs a search, once its boxes are packed.
 core::Status KeptFinder::Impl::choose() {
   if (has_candidates) {
     in_vain = has_served ? 0 : in_vain + 1;
@@ -213,7 +214,7 @@ core::Status KeptFinder::Impl::search_fat() {
 }
 
 core::Status KeptFinder::Impl::test_candidates() {
-  // Never more than candidates.
+  // There are never more pairs than candidates.
   BROADSIDE_TRY(pairs.reserve(std::max(kLeastPairs, view.candidate_count), "pairs"));
   view.pairs = {pairs.data(), pairs.capacity()};
   BROADSIDE_TRY(clear_counts());

@@ -1,11 +1,12 @@
-// `broad=kept` on the GPU: for boxes that move little from frame to frame, what was found is kept while it must still
-// hold every pair.
+// `broad=kept` on the GPU, for boxes that move little from frame to frame: the pairs of one search are kept as
+// candidates for as long as they are sure to hold every pair.
 //
-// A search is made of boxes that are fattened on each side. Its pairs are candidates for as long as every box lies
-// within its fat one: boxes that overlap lie in fat boxes that do. A frame in which all do tests the candidates and
-// searches nothing; the first box that leaves makes a new search. So every frame is exact, also when everything jumps.
-// Searches whose candidates served no further frame cost more than one of the boxes as they are; after each such search
-// in a row twice as many frames are searched as they are before it is tried again.
+// A search tests boxes that are fattened on each side. Its pairs are candidates for as long as every box lies within
+// its fat box, because two boxes that overlap then lie in fat boxes that overlap. While that holds, a frame tests the
+// candidates and searches nothing; once a box has left its fat box, there is a new search. So every frame is exact,
+// even if all boxes jump. A search of fat boxes whose candidates served no further frame costs more than one of the
+// boxes as they are. After each such search in a row, the boxes are searched as they are for twice as many frames as
+// before, and then fat boxes are tried again.
 #pragma once
 
 #include <memory>
@@ -33,7 +34,7 @@ class KeptFinder final : public core::BroadPhase, public core::TakesDeviceBoxes,
   core::Status find() override;
   core::Result<core::PairSet> read_back() override;
   [[nodiscard]] core::Result<core::DevicePairs> pairs_on_device() const override;
-  // Frames that were searched, frames that tested candidates alone, and the candidates tested.
+  // How many frames searched, how many only tested candidates, and how many candidates were tested.
   [[nodiscard]] std::vector<core::Counter> counters() const override;
   [[nodiscard]] std::string path() const override;
 

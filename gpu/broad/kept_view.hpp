@@ -15,16 +15,16 @@ namespace broadside::gpu {
 
 struct KeptCounts {
   unsigned long long pairs = 0;
-  std::uint32_t left = 0;  // whether some box is not within its fat one
+  std::uint32_t left = 0;  // whether a box is no longer within its fat box
 };
 
-// Places are those of boxes among the entries of the last search, where neighbors in space lie side by side.
+// A box's place is that of its entry in the last search, where neighbors in space lie side by side.
 struct KeptView {
   std::uint32_t count = 0;
   const PackedBox* now = nullptr;     // [count] this frame's boxes; low_tag = the box's number
   const float* given = nullptr;       // [count][6] where launch_within finds them; null: in `now`
   PackedBox* fat = nullptr;           // [count] by number
-  BoxMeasure* measure = nullptr;      // of the fat ones
+  BoxMeasure* measure = nullptr;      // of the fat boxes
   const BulkEntry* order = nullptr;   // [count] by place
   PackedBox* placed = nullptr;        // [count] this frame's, by place
   std::uint32_t* place_of = nullptr;  // [count] by number
@@ -34,15 +34,16 @@ struct KeptView {
   KeptCounts* counts = nullptr;
 };
 
-// All asynchronous. `measure` as BoxMeasure{} before: fat boxes of this frame's.
+// All launches are asynchronous. Makes the fat boxes from this frame's; `measure` must be BoxMeasure{} before.
 core::Status launch_fatten(const KeptView& view, StreamHandle stream);
-// After a search of the fat boxes: what lies at which place.
+// After a search of the fat boxes: notes which box lies at which place.
 core::Status launch_place(const KeptView& view, StreamHandle stream);
-// After that: the search's pairs become pairs of places.
+// After launch_place(): turns the search's pairs into pairs of places.
 core::Status launch_renumber(const KeptView& view, StreamHandle stream);
-// Places this frame's boxes, and notes whether one left its fat box. Counts are zero before, as for the next.
+// Puts this frame's boxes at their places, and notes whether one left its fat box. Counts must be zero before, as for
+// launch_test().
 core::Status launch_within(const KeptView& view, StreamHandle stream);
-// Of the candidates, those whose boxes overlap in this frame.
+// Finds the candidates whose boxes overlap in this frame.
 core::Status launch_test(const KeptView& view, StreamHandle stream);
 
 }  // namespace broadside::gpu

@@ -1,5 +1,4 @@
-// The launch that packs boxes which lie on the device, and measures them: what the host learns of boxes that it never
-// sees.
+// The launch that packs boxes which lie on the device, and measures them for the host, which never sees them.
 #pragma once
 
 #include <bit>
@@ -12,7 +11,7 @@
 
 namespace broadside::gpu {
 
-// Floats as whole numbers of the same order, so that atomics on whole numbers find the least and the largest.
+// Maps floats to integers of the same order, so that integer atomics find the least and the largest.
 BROADSIDE_HD constexpr std::uint32_t ordered_bits(float v) {
   const auto bits = std::bit_cast<std::uint32_t>(v);
   return (bits & 0x80000000U) != 0 ? ~bits : bits | 0x80000000U;
@@ -21,7 +20,7 @@ BROADSIDE_HD constexpr float from_ordered_bits(std::uint32_t bits) {
   return std::bit_cast<float>((bits & 0x80000000U) != 0 ? bits & 0x7FFFFFFFU : ~bits);
 }
 
-// Of all boxes together. Least and largest do not depend on the order in which threads come.
+// Measures of all boxes together. They are minima and maxima, so the order of threads does not matter.
 struct BoxMeasure {
   std::uint32_t first_bad = 0xFFFFFFFFU;  // the first box that is not finite or has min > max
   std::uint32_t largest_side = 0;         // ordered bits, like the others; 0 is below every number
@@ -38,11 +37,11 @@ struct PackView {
   BoxMeasure* measure = nullptr;            // as BoxMeasure{} before the launch
 };
 
-// Some of the boxes, behind each other.
+// Copies some of the boxes to consecutive places.
 struct GatherView {
   std::uint32_t count = 0;
   const std::uint32_t* which = nullptr;  // [count]
-  const float* given = nullptr;          // boxes, as of PackView
+  const float* given = nullptr;          // boxes, as in PackView
   core::Box* gathered = nullptr;         // [count]
 };
 

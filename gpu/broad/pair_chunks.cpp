@@ -6,19 +6,20 @@
 namespace broadside::gpu {
 namespace {
 
-// Of the first share; in the densest scenes of the campaign it fills half of a chunk.
+// What the first share is expected to have; in the densest scenes of the campaign it fills half of a chunk.
 constexpr std::uint64_t kExpectedPairsPerBox = 16;
-// A chunk is aimed at being so full, since shares differ.
+// How full a chunk is meant to be, since shares differ.
 constexpr double kAim = 0.75;
 constexpr double kMostGrowth = 4.0;
 
-// By how full the last share of this width has made a chunk.
+// The width of the next share, from how full the last share, of this width, has made a chunk.
 std::uint64_t next_width(std::uint64_t width, double fullness) {
   const double growth = fullness * kMostGrowth > kAim ? kAim / fullness : kMostGrowth;
   return std::max<std::uint64_t>(1, static_cast<std::uint64_t>(static_cast<double>(width) * growth));
 }
 
-// Sets that have boxes beyond the cells of the grid are found at once.
+// Sets that have a box longer than any cell of the grid cannot be searched in shares: all their pairs are found at
+// once.
 core::Status find_at_once(BoxSearch& search, const Stream& stream, const ChunkConsumer& take) {
   do {
     if (search.is_aborted()) BROADSIDE_TRY(search.grow());

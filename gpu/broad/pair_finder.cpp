@@ -26,21 +26,21 @@ struct PairFinder::Impl {
   core::PassPlan plan;
   SearchedBoxes boxes;
   DevicePacking packing;
-  // The first `active`, in their order; the others keep their memory for another plan.
+  // The first `active` of these are in use, in order; the others keep their memory for another plan.
   std::vector<std::unique_ptr<BoxSearch>> searches;
   std::size_t active = 0;
   ApartSearch apart;
   bool may_be_apart = false;
-  bool is_apart = false;  // in the place of the searches
+  bool is_apart = false;  // `apart` is used instead of the searches
   std::uint64_t chunked_pairs = 0;
-  BulkFit fit;                     // of the boxes that were loaded
-  std::vector<BulkFit> pass_fits;  // of their passes
-  bool is_by_host = false;         // boxes of the device that were loaded need passes, which the host makes
+  BulkFit fit;                     // fit of the boxes that were loaded
+  std::vector<BulkFit> pass_fits;  // fits of their passes
+  bool is_by_host = false;         // the loaded boxes lie on the device and need passes, which the host makes
   std::uint64_t launches = 0;
   std::uint64_t bytes_to_device = 0;
   WorkCounter work;
   DeviceBuffer<core::Pair> joined;  // the pairs of several searches
-  FoundPairs all;                   // once somebody asked for them together
+  FoundPairs all;                   // set once the pairs of all searches were asked for together
   bool is_joined = false;
 
   core::Status start(std::span<const std::uint8_t> flags);
@@ -97,20 +97,20 @@ core::Status PairFinder::Impl::load_search(std::size_t k, bool is_new, const Pai
   return search(k).load(boxes, own, is_new);
 }
 
-// What the options say of bulk pairs, in the place of what was found out.
+// Replaces what was fitted by what the options say.
 BulkFit PairFinder::Impl::with_wishes(BulkFit own) const {
   if (options.cell_scale != 0.0F) own.cell_scale = options.cell_scale;
   if (options.lanes_per_box != 0) own.lanes_per_box = options.lanes_per_box;
   if (options.levels_apart != 0) own.levels_apart = options.levels_apart;
   if (options.x_halvings != PairFinderOptions::kFitted) own.x_halvings = options.x_halvings;
   if (options.groups != PairFinderOptions::kFitted) own.is_grouped = options.groups != 0;
-  // What is counted is the work of the other search: which boxes a group has is not the same every time.
+  // Work is counted for the search by cells only: which boxes a group has differs from run to run.
   if (work.is_asked() || options.has_shares) own.is_grouped = false;
   return own;
 }
 
 core::Status PairFinder::Impl::place(std::span<const Box> given, bool is_new) {
-  // Also where there are passes: it refuses what is no box.
+  // Done even if there are passes, because take() refuses what is not a box.
   BROADSIDE_TRY(boxes.take(given, is_static, options));
   plan = {};
   if (options.may_have_passes()) plan = core::plan_passes(given, boxes.facts().coordinate_range_m, least_for_passes());
@@ -123,7 +123,7 @@ core::Status PairFinder::Impl::place(std::span<const Box> given, bool is_new) {
   }
   active = std::max<std::size_t>(1, plan.passes.size());
   if (plan.is_plain()) {
-    // More frames than one decide whether it pays, so updates take what was loaded.
+    // Fitting pays only over several frames, so updates keep the fit of the boxes that were loaded.
     const bool is_bulk = options.start(boxes.facts()) == Start::kBulk;
     if (is_new) fit = with_wishes(is_bulk ? bulk_fit(given, boxes.facts()) : BulkFit{});
     boxes.fit(fit);
@@ -136,7 +136,7 @@ core::Status PairFinder::Impl::place(std::span<const Box> given, bool is_new) {
     boxes.take(given, is_static, plan, plan.passes[k]);
     const bool is_bulk = own.start(boxes.facts()) == Start::kBulk;
     if (is_new && is_bulk) pass_fits[k] = with_wishes(bulk_fit_by_sample(boxes.sample(), boxes.facts()));
-    pass_fits[k].cell_scale = 1.0F;  // cells are as large as a pass makes its boxes
+    pass_fits[k].cell_scale = 1.0F;  // a pass has made its boxes as large as cells
     pass_fits[k].is_grouped = false;
     boxes.fit(pass_fits[k]);
     BROADSIDE_TRY(load_search(k, is_new, own));
@@ -144,7 +144,7 @@ core::Status PairFinder::Impl::place(std::span<const Box> given, bool is_new) {
   return core::Done{};
 }
 
-// What the host learns of a sample, as of boxes of its own: whether there are passes, and how large cells are.
+// Decides from a sample, as for boxes of the host, whether there are passes and how large cells are.
 core::Status PairFinder::Impl::fit_to(const core::DeviceBoxes& given, const BoxFacts& facts) {
   is_by_host = false;
   if (options.may_have_passes()) {
@@ -219,7 +219,7 @@ core::Status PairFinder::Impl::launch() {
   return core::Done{};
 }
 
-// Whether there was too little room; now there is enough.
+// Returns whether there was too little room; afterwards there is enough.
 core::Result<bool> PairFinder::Impl::grow() {
   bool had_too_little = false;
   const auto grow_one = [&](auto& search) -> core::Status {
@@ -283,7 +283,7 @@ core::Status PairFinder::hand_on(const Consumer& take) {
   return core::Done{};
 }
 
-// One search's pairs are where they are; those of several are copied behind each other.
+// The pairs of a single search stay where they are; those of several searches are copied into one array.
 core::Status PairFinder::Impl::join() {
   if (is_joined) return core::Done{};
   const std::vector<FoundPairs> each = found();
@@ -349,8 +349,8 @@ void PairFinder::count_work() {
   impl_->work.ask();
 }
 
-// Where boxes are bulk pairs, also how large their cells are, and how many lanes look for a box's partners, pass by
-// pass.
+// Describes the search. For bulk pairs it also says, pass by pass, how large cells are and how many lanes look for a
+// box's partners.
 std::string PairFinder::Impl::words_of_search() const {
   std::string words = core::words_of(plan);
   if (active == 0 || active > searches.size()) return words;

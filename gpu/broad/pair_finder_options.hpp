@@ -1,4 +1,4 @@
-// What may be chosen about a broad phase on the GPU that runs alone.
+// Options of a broad phase on the GPU that runs alone.
 #pragma once
 
 #include <cstdint>
@@ -18,7 +18,7 @@ struct PairFinderOptions {
   std::uint32_t least_for_bins = kLeastBoxesForBins;
   std::uint32_t least_for_passes = core::kLeastBoxesForPasses;
   std::uint32_t least_for_apart = kLeastBoxesForBulk;  // to keep static boxes in a table of their own
-  std::uint64_t pairs_at_once = 0;                     // room for pairs on the device; 0: for all
+  std::uint64_t pairs_at_once = 0;                     // how many pairs the device has room for; 0: all
   float cell_scale = 0.0F;                             // of BulkFit; 0: what fits the boxes that are loaded
   std::uint32_t lanes_per_box = 0;                     // likewise
   std::uint32_t levels_apart = 0;                      // likewise
@@ -28,7 +28,7 @@ struct PairFinderOptions {
   bool has_shares = false;  // boxes are searched share by share or part by part, so by the search of bulk pairs alone
   std::uint32_t most_bins_at_once = 0;  // of BinLimits
 
-  // Where the pairs of these boxes come from.
+  // Which start finds the pairs of these boxes.
   [[nodiscard]] Start start(const BoxFacts& facts) const {
     if (variant == core::Variant::kE2 || variant == core::Variant::kE7) return Start::kOctree;
     if (broad == Broad::kOctree) return Start::kOctree;

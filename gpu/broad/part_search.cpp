@@ -7,7 +7,7 @@
 namespace broadside::gpu {
 namespace {
 
-// Of n boxes in a cube some n^(2/3) reach over a face; more are found again.
+// Of n boxes in a cube some n^(2/3) reach over a face. If there are more, the search for them is repeated.
 std::uint64_t expected_guests(std::uint64_t boxes) {
   const double side = std::cbrt(static_cast<double>(boxes));
   return 1024 + static_cast<std::uint64_t>(2.0 * side * side);
@@ -121,7 +121,7 @@ core::Status PartSearch::start_copy_from(const PartSearch& other) {
 
 PairNames PartSearch::names() const {
   constexpr std::uint32_t kNone = 0xFFFFFFFFU;
-  if (is_pass_) return {0, kNone, own_};  // the search's own: what settles them knows the caller's
+  if (is_pass_) return {0, kNone, own_};  // the search's own numbers: settling turns them into the caller's
   if (numbers_ == Numbers::kCallers) return {0, 0, own_};
   return {borders_.base, own_, own_};
 }

@@ -16,15 +16,16 @@ namespace broadside::gpu {
 struct PartOptions {
   bool is_pass = false;
   std::uint32_t owned = 0;          // of a pass: SettleView
-  std::uint64_t pairs_at_once = 0;  // room for so many; 0: for all
+  std::uint64_t pairs_at_once = 0;  // how many there is room for; 0: all
 };
 
-// Whose numbers pairs have: those that boxes have part by part, or the caller's. Those of a pass always have the
-// caller's.
+// By which numbers pairs name boxes: those that boxes get part by part, or the caller's. Pairs of a pass always have
+// the caller's.
 enum class Numbers { kDealt, kCallers };
 
-// Calls in their order: load, then for each search start_borders, finish_borders, make_room_for_guests, a copy of each
-// other part's guests, and start_search, finish_search, or hand_on. Those that start return at once.
+// Calls must come in this order: load; then for each search start_borders, finish_borders, make_room_for_guests,
+// start_copy_from for each other part, and then either start_search and finish_search, or hand_on. The calls named
+// start_... return at once.
 class PartSearch {
  public:
   PartSearch(int device, std::uint32_t part) : device_(device), part_(part) {}
@@ -32,20 +33,20 @@ class PartSearch {
   core::Status load(const DealtBoxes& dealt, const core::SpaceCut& cut, const PartOptions& options);
 
   core::Status start_borders(Numbers numbers);
-  // Waits. False: there was too little room, now there is enough, and borders are to be started again.
+  // Waits. Returns false if there was too little room: now there is enough, and start_borders must be called again.
   core::Result<bool> finish_borders();
-  // Boxes of this part that reach into a later one.
+  // How many boxes of this part reach into this later part.
   [[nodiscard]] std::uint64_t reaching(std::uint32_t part) const { return reached_[part]; }
 
-  // For so many, of all parts together.
+  // `count`: guests from all other parts together.
   core::Status make_room_for_guests(std::uint64_t count);
-  // Behind those that were copied before.
+  // Appends the guests from that part to those that were copied before.
   core::Status start_copy_from(const PartSearch& other);
   core::Status start_search();
-  // Waits. False: pairs were lost; now there is room for them, and the search is to be started again.
+  // Waits. Returns false if pairs were lost: now there is room for them, and start_search must be called again.
   core::Result<bool> finish_search();
 
-  // In chunks, each of as many pairs as there is room for.
+  // Hands pairs on in chunks, each of as many pairs as there is room for.
   core::Status hand_on(const ChunkConsumer& take);
 
   [[nodiscard]] FoundPairs found() const { return has_searched_ ? search_.found() : FoundPairs{}; }
@@ -77,8 +78,8 @@ class PartSearch {
   BorderView borders_;
   DeviceBuffer<float> faces_;
   DeviceBuffer<PackedBox> out_;
-  DeviceBuffer<PackedBox> given_out_;        // of a pass: the same as given
-  DeviceBuffer<unsigned long long> counts_;  // [parts], and the digest behind
+  DeviceBuffer<PackedBox> given_out_;        // in a pass: the same boxes as given
+  DeviceBuffer<unsigned long long> counts_;  // [parts], then the digest
   std::vector<unsigned long long> reached_;
 };
 

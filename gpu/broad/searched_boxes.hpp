@@ -1,4 +1,4 @@
-// The boxes of one search, packed on the host, and what the sizes of its cells depend on.
+// The boxes of one search, packed on the host, and the facts on which the sizes of its cells depend.
 #pragma once
 
 #include <cstddef>
@@ -14,9 +14,9 @@
 
 namespace broadside::gpu {
 
-// Of a box that is not finite or has min > max.
+// The error for a box that is not finite or has min > max.
 core::Error bad_box(std::size_t place);
-// Of an update with more or fewer boxes than were loaded.
+// The error for an update with more or fewer boxes than were loaded.
 core::Error another_count(std::size_t given, std::size_t loaded);
 
 bool is_sound(const core::Box& box);
@@ -34,10 +34,10 @@ class FactsOfBoxes {
 
 class SearchedBoxes {
  public:
-  // All boxes as they are. An error names the first that is no box.
+  // All boxes as they are. An error names the first one that is not a box.
   core::Status take(std::span<const core::Box> boxes, std::span<const std::uint8_t> is_static,
                     const PairFinderOptions& options);
-  // Those of a pass, in its coordinates. They are sound.
+  // Takes the boxes of a pass, in its coordinates. They must be sound.
   void take(std::span<const core::Box> boxes, std::span<const std::uint8_t> is_static, const core::PassPlan& plan,
             const core::BoxPass& pass);
 
@@ -45,9 +45,9 @@ class SearchedBoxes {
 
   [[nodiscard]] const BoxFacts& facts() const { return facts_; }
   [[nodiscard]] std::span<const PackedBox> searched() const { return searched_; }
-  // Some of the searched boxes, to fit cells and lanes by.
+  // Some of the searched boxes, from which cells and lanes are fitted.
   [[nodiscard]] std::vector<core::Box> sample() const;
-  // Empty where boxes are searched as they are; else as SettleView has them.
+  // Empty if boxes are searched as they are; else the boxes as SettleView has them.
   [[nodiscard]] std::span<const PackedBox> given() const { return given_; }
   [[nodiscard]] std::uint32_t owned() const { return owned_; }
 

@@ -1,5 +1,5 @@
-// The launch behind a search in mapped coordinates, which leaves the pairs of the boxes as given:
-// core/method/box_passes.hpp.
+// The launch after a search in mapped coordinates: it keeps the pairs that overlap as given
+// (core/method/box_passes.hpp).
 #pragma once
 
 #include <cstdint>
@@ -14,12 +14,12 @@
 namespace broadside::gpu {
 
 struct SettleView {
-  // By the search's number of a box: the box as given. low_tag = the caller's number; high_tag: bit 0 = static, then
-  // the group.
+  // Indexed by the search's number of a box: the box as given. low_tag = the caller's number; high_tag: bit 0 = static,
+  // then the group.
   const PackedBox* given = nullptr;
   std::uint32_t owned = 0;       // bit g: pairs within group g are kept here
-  AppendView<core::Pair> found;  // by the search
-  AppendView<core::Pair> pairs;  // demanded: Counters::confirmed
+  AppendView<core::Pair> found;  // pairs that the search found
+  AppendView<core::Pair> pairs;  // pairs that are kept; demanded: Counters::confirmed
   Counters* counters = nullptr;  // of the search
   unsigned long long* barrier = nullptr;
   Outcome* outcome = nullptr;

@@ -1,5 +1,6 @@
-// The search of bulk pairs by four lanes a box: of boxes so few that most warps have one turn, and so crowded that some
-// have most of the work. pairs_kernel.cu and on_host/frame_on_host.cpp implement it.
+// The search of bulk pairs with four lanes for each box. It is for boxes so few that most warps take boxes only once,
+// and so crowded that some warps would have most of the work. pairs_kernel.cu and on_host/frame_on_host.cpp implement
+// it.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +11,7 @@
 
 namespace broadside::gpu {
 
-// So many look for the partners of one box where boxes are crowded: fitted_cells.hpp.
+// How many lanes look for the partners of one box where boxes are crowded: fitted_cells.hpp.
 constexpr std::uint32_t kLanesOfCrowd = 4;
 
 // As pairs_launch_shape and launch_pairs, for Start::kBulk. `lanes_per_box`: 1 or kLanesOfCrowd, the same in both.

@@ -21,7 +21,7 @@ double seconds_since(Clock::time_point& from) {
   return seconds;
 }
 
-// In the coordinates of a pass.
+// The cut in the coordinates of a pass.
 core::SpaceCut mapped(const core::SpaceCut& cut, const core::PassMap& map) {
   core::SpaceCut of_pass;
   while (map.from[of_pass.axis] != cut.axis) ++of_pass.axis;
@@ -31,7 +31,7 @@ core::SpaceCut mapped(const core::SpaceCut& cut, const core::PassMap& map) {
 
 }  // namespace
 
-// The boxes of one pass, or of a set without passes all of them, dealt to parts.
+// The boxes of one pass, or all boxes if there are no passes, dealt to parts.
 struct SpreadSearch {
   core::SpaceCut cut;
   DealtBoxes dealt;
@@ -49,7 +49,7 @@ struct SpreadFinder::Impl {
   std::vector<std::uint8_t> is_static;
   core::SpaceCut cut;
   core::PassPlan plan;
-  std::vector<SpreadSearch> searches;  // as many as passes, or one
+  std::vector<SpreadSearch> searches;  // one for each pass, or a single one
   std::uint32_t devices = 0;
   BulkFit fit;  // of the boxes that were loaded
   SpreadTime time;
@@ -191,7 +191,7 @@ core::Status SpreadFinder::Impl::exchange_borders(Numbers numbers) {
   return core::Done{};
 }
 
-// One part after another: its pairs lie in memory until they were taken.
+// Goes through one part after another; a part's pairs stay in memory until they were taken.
 core::Status SpreadFinder::Impl::for_each_chunk(const ChunkConsumer& take) {
   BROADSIDE_TRY(exchange_borders(Numbers::kCallers));
   auto at = Clock::now();
@@ -257,7 +257,7 @@ std::vector<core::Counter> SpreadFinder::counters() const {
   std::uint64_t guests = 0;
   for (const SpreadSearch& search : impl_->searches) guests += search.guests;
   constexpr std::uint64_t kNeeded = sizeof(core::Box) + sizeof(std::uint32_t);
-  // In passes a box is sent as it is searched and as it was given.
+  // With passes, a box is sent both as it is searched and as it was given.
   const std::uint64_t sent = impl_->plan.is_plain() ? 1 : 2;
   return {{"bytes between parts", guests * sizeof(PackedBox) * sent},
           {"bytes that borders need", guests * kNeeded},

@@ -82,7 +82,7 @@ core::Result<FirstHit> ImpactFinder::find_earliest() {
   std::vector<ImpactCounts> counts;
   BROADSIDE_TRY(counts_.download(counts, 1));
   if (counts[0].hits > options_.hits) {
-    // More than there was room for: the next run has it.
+    // There were more than there was room for: repeat with enough room.
     options_.hits = counts[0].hits + counts[0].hits / 2;
     BROADSIDE_TRY(hits_.reserve(options_.hits, "touches"));
     return find_earliest();

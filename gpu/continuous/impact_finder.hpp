@@ -1,4 +1,4 @@
-// First touches of the features of a moving surface on the GPU.
+// Finds, on the GPU, when features of a moving surface first touch.
 #pragma once
 
 #include <cstdint>
@@ -11,19 +11,19 @@
 namespace broadside::gpu {
 
 struct ImpactFinderOptions {
-  // Queries of one launch. The search for the earliest time alone profits from few: each launch knows what those before
-  // it found.
+  // Queries of one launch. If only the earliest time is asked for, few are better: each launch knows what the launches
+  // before it found.
   std::uint32_t queries_a_launch = 1U << 22U;
   std::uint32_t hits = 1U << 16U;  // room for touches that were the earliest when they were found
 };
 
-// Times of pairs in their order: kNoTouch where there is no touch.
+// The time of each pair, in the order of the pairs; kNoTouch if they do not touch.
 struct ImpactTimes {
   std::vector<double> vertex_face;
   std::vector<double> edge_edge;
 };
 
-// The earliest touch. Of equally early ones that of the least kind and pair.
+// The earliest touch; among equally early ones, that of the lowest kind and pair.
 struct FirstHit {
   bool touches = false;
   double time = 1.0;
@@ -38,12 +38,12 @@ class ImpactFinder {
   // Copies to the device. The pairs must be of these features.
   core::Status load(const continuous::MovingSurface& surface, const continuous::SurfaceFeatures& features,
                     const continuous::FeaturePairs& pairs);
-  // These return when the answers exist on the device; find_earliest copies its one answer here.
+  // Both return when the answers exist on the device; find_earliest copies its one answer to the host.
   core::Status find_times();
   core::Result<FirstHit> find_earliest();
-  // Of the last find, by the device's events around its launches.
+  // The time of the last find, by the device's events around its launches.
   [[nodiscard]] double seconds() const { return seconds_; }
-  // After find_times. A copy of 8 bytes a pair.
+  // Copies the times that find_times found, 8 bytes a pair.
   [[nodiscard]] core::Result<ImpactTimes> read_back() const;
 
  private:

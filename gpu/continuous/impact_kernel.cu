@@ -7,8 +7,8 @@ namespace {
 using continuous::FeatureKind;
 
 constexpr std::uint32_t kImpactThreads = 128;
-constexpr std::uint32_t kResidentBlocks = 4;  // 128 registers a thread
-// No block waits for another: more than are resident even out the ends.
+constexpr std::uint32_t kResidentBlocks = 4;  // of a multiprocessor, so that a thread has 128 registers
+// No block waits for another, so there may be more than are resident: then multiprocessors end at about the same time.
 constexpr std::uint32_t kImpactBlocksPerMultiprocessor = 16;
 
 template <FeatureKind kKind>

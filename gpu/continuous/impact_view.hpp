@@ -9,10 +9,10 @@
 
 namespace broadside::gpu {
 
-// In a query that the first look left: it was not looked at, since its coordinates must be scaled first.
+// Marks a query that the first look could not decide, because its coordinates must be scaled first.
 inline constexpr std::uint32_t kUnlooked = 0x80000000U;
 
-// A touch.
+// A touch: its query, kind and time.
 struct ImpactHit {
   std::uint32_t query;
   std::uint32_t kind;
@@ -20,9 +20,9 @@ struct ImpactHit {
 };
 
 struct ImpactCounts {
-  std::uint32_t left;                // queries that the first look left; 0 before it
-  std::uint32_t hits;                // touches that were as early as any before
-  unsigned long long earliest_bits;  // of the earliest time so far: bits of times above zero are in the order of times
+  std::uint32_t left;                // how many queries the first look left open; 0 before it
+  std::uint32_t hits;                // how many touches were as early as any found before
+  unsigned long long earliest_bits;  // bits of the earliest time so far; bits of positive times order as times do
 };
 
 struct ImpactView {
@@ -32,16 +32,16 @@ struct ImpactView {
   std::uint32_t first;  // queries of this launch: first to last - 1
   std::uint32_t last;
   std::uint32_t* left;  // room for last - first
-  ImpactHit* hits;      // of the earliest time alone; those past the capacity are counted and not written
+  ImpactHit* hits;      // if only the earliest time is asked for; those past the capacity are counted, not written
   std::uint32_t hit_capacity;
   ImpactCounts* counts;
-  double* times;  // of each pair; null: the earliest time alone is asked for, and queries end at it
+  double* times;  // [pairs]; null: only the earliest time is asked for, and queries end at it
 };
 
-// Of a query without a touch.
+// The time of a query without a touch.
 inline constexpr double kNoTouch = 2.0;
 
-// The first look at every query of the view, and then the search for those that it left.
+// Launches the first look at every query of the view, and then the search for those that it left open.
 core::Status launch_impacts(const ImpactView& view, std::uint32_t multiprocessors, StreamHandle stream);
 
 core::Result<std::uint32_t> multiprocessor_count();

@@ -7,8 +7,9 @@
 
 namespace broadside::gpu {
 
-// Divides below 2^20 by the same number again and again, in a few steps instead of some thirty: half a unit above the
-// quotient is farther from the next whole number than roundings reach.
+// Divides numbers below 2^20 by the same divisor again and again, in a few steps instead of some thirty. It is exact,
+// because half a unit is added to the dividend: that keeps the quotient farther from the next whole number than
+// rounding can move it.
 class FloatDivisor {
  public:
   using Number = std::uint32_t;
@@ -27,7 +28,7 @@ class FloatDivisor {
   float inverse_ = 1.0F;
 };
 
-// The same of any numbers.
+// The same for dividends of any size.
 class IntegerDivisor {
  public:
   using Number = std::uint64_t;

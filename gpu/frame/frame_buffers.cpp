@@ -9,8 +9,8 @@
 namespace broadside::gpu {
 namespace {
 
-// Room at the start: a packed pile of boxes has some six pairs a body, a body in a corner three faces; what is wrong
-// with it costs one repeated frame.
+// Room at the start. A packed pile of boxes has some six pairs a body, and a body in a corner touches three faces. Too
+// little room costs one repeated frame.
 constexpr std::uint64_t kFramePairsPerBody = 4;
 
 std::uint64_t with_slack(std::uint64_t demanded) {
@@ -69,7 +69,7 @@ core::Status FrameBuffers::reserve_leftovers() {
   BROADSIDE_TRY(leftovers_.reserve(2 * std::size_t{LeftoverView::kMost}, "shared searches"));
   BROADSIDE_TRY(
       leftover_entries_.reserve(2 * std::size_t{LeftoverView::kMost} * LeftoverView::kEntries, "shared searches"));
-  // Kernels read entries before they know how many there are.
+  // Kernels read entries before they know how many there are, so the memory must be initialized.
   return leftover_entries_.fill_bytes(0);
 }
 

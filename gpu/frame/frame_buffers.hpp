@@ -1,5 +1,5 @@
-// What changes from frame to frame, on the device: states, and the buffers that grow to what a frame demands. The broad
-// phase's own are in broad_buffers.hpp.
+// Device memory of what changes from frame to frame: states, and buffers that grow when a frame demands more. Those of
+// the broad phase are in broad_buffers.hpp.
 #pragma once
 
 #include <cstdint>
@@ -25,13 +25,13 @@ struct DeviceState {
 
 class FrameBuffers {
  public:
-  // The initial state becomes the previous one; room for pairs and contacts starts at a few a body.
+  // The initial state becomes the previous one. At first there is room for a few pairs and contacts a body.
   core::Status load(const core::Scene& scene);
-  // Where small frames leave the rest of long searches to the whole grid.
+  // Reserves the memory through which small frames leave the rest of long searches to the whole grid.
   core::Status reserve_leftovers();
-  // For a frame behind `under_way` launched frames for which advance() was not called yet.
+  // Fills the view for a frame that comes after `under_way` launched frames for which advance() was not called yet.
   void fill(FrameView& view, std::uint64_t under_way = 0) const;
-  // What a small frame, or a grid frame, has beside that.
+  // Fills what a small frame, or a grid frame, has in addition.
   void fill_small(SmallFrameView& view) const;
   void fill_grid(GridFrameView& view) const;
   // Makes room for what the aborted frame demanded, and a quarter more. Contents are lost.
@@ -39,7 +39,7 @@ class FrameBuffers {
   // The frame is done: the next one starts from what it made.
   void advance() { std::swap(previous_, next_); }
 
-  // After advance(), of the frame that was done; before any step, the initial state.
+  // The state at the end of the last frame for which advance() was called; before any step, the initial state.
   [[nodiscard]] const DeviceState& state() const { return previous_; }
   [[nodiscard]] const DeviceState& detected() const { return detected_; }
   [[nodiscard]] const DeviceBuffer<PackedBox>& boxes() const { return boxes_; }

@@ -5,7 +5,7 @@
 namespace broadside::gpu {
 namespace {
 
-// Sections start where any of their types may.
+// Sections start at multiples of this, which is enough for any of their types.
 constexpr std::size_t kAlignment = 256;
 
 constexpr std::size_t aligned(std::size_t bytes) {
@@ -44,11 +44,11 @@ core::Status FrameCopy::start(const FrameBuffers& buffers, const FrameCounts& co
     begin_[k] = total;
     total += aligned(bytes_[k]);
   }
-  total = std::max(total, kAlignment);  // of a scene without bodies there is nothing to copy
+  total = std::max(total, kAlignment);  // a scene without bodies has nothing to copy
   // A quarter more than asked for, so that frames that grow slowly do not allocate each time.
   if (total > device_.capacity()) {
     BROADSIDE_TRY(device_.reserve(total + total / 4, "a frame on its way to the host"));
-    // What is between sections travels too.
+    // The gaps between sections are copied too, so they must be initialized.
     BROADSIDE_TRY(device_.fill_bytes(0));
     BROADSIDE_TRY(wait_for_device("clearing the copy of a frame"));
   }

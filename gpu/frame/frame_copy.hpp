@@ -1,4 +1,4 @@
-// One frame on its way from the device to a record, while the device computes the next one.
+// Copies one frame from the device into a record while the device computes the next one.
 #pragma once
 
 #include <array>
@@ -31,20 +31,20 @@ class PinnedBytes {
   std::size_t capacity_ = 0;
 };
 
-// The frame's arrays are copied side by side to a place of their own on the device, in the order of the stream that
-// computes; from there a second stream carries them to the host. So the next frame may overwrite its buffers at once.
+// First the stream that computes copies the frame's arrays, side by side, to memory of their own on the device; from
+// there a second stream copies them to the host. So the next frame may overwrite the buffers at once.
 class FrameCopy {
  public:
   // Returns at once. A copy that was started must be finished before the next one starts here.
   core::Status start(const FrameBuffers& buffers, const FrameCounts& counts, bool is_confirmed_by_level0,
                      StreamHandle work, StreamHandle copies);
-  // Waits for it. Fills what fill_record fills.
+  // Waits for the copy, and fills what fill_record fills.
   core::Status finish(core::FrameRecord& frame);
 
-  // What the host knows of the frame already: step, time, digest, counts; of a frame that is not full that is all, and
-  // nothing is copied.
+  // What the host knows of the frame already: step, time, digest, counts. If the frame is not recorded in full, that is
+  // all, and nothing is copied.
   core::FrameRecord begun;
-  bool has_digest = false;  // it may come later than the rest
+  bool has_digest = false;  // the digest may come later than the rest
   bool is_full = false;
 
  private:

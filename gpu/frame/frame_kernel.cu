@@ -14,7 +14,7 @@ namespace {
 constexpr std::uint32_t kThreads = 512;
 static_assert(kThreads <= kMaxBlockWarps * 32);
 constexpr std::uint32_t kBlocksPerMultiprocessor = 2;
-constexpr std::uint32_t kSmallBlocksPerMultiprocessor = 1;  // no more, so that registers suffice
+constexpr std::uint32_t kSmallBlocksPerMultiprocessor = 1;  // not more, so that a thread has enough registers
 constexpr std::uint32_t kDigestThreads = 512;
 constexpr std::uint32_t kDigestBlocksPerMultiprocessor = 2;
 
@@ -39,7 +39,7 @@ __global__ void __launch_bounds__(kDigestThreads, kDigestBlocksPerMultiprocessor
   run_digest(view, &block_sum);
 }
 
-// A small frame's kernel has shapes in shared memory too.
+// A small frame's kernel also keeps shapes in shared memory.
 LaunchShape small_shape(LaunchShape shape) {
   shape.shared_bytes += sizeof(BlockShapes);
   return shape;
@@ -88,7 +88,7 @@ core::Status launch_frame(const GridFrameView& frame, const LaunchShape& shape, 
 }
 
 core::Status launch_digest(const DigestView& view, std::uint32_t multiprocessors, StreamHandle stream) {
-  // The host does not know yet how many contacts there are; a heap has some seven a body.
+  // The host does not know yet how many contacts there are. A heap has some seven a body.
   const std::uint32_t blocks =
       std::clamp(view.body_count / (kDigestThreads / 8), 1U, kDigestBlocksPerMultiprocessor * multiprocessors);
   digest_kernel<<<blocks, kDigestThreads, 0, stream>>>(view);

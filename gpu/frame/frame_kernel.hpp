@@ -16,10 +16,10 @@
 
 namespace broadside::gpu {
 
-// How a kernel fits this GPU.
+// How many threads and blocks of a kernel this GPU can hold at once.
 struct LaunchShape {
-  std::uint32_t threads = 0;  // of a block; a power of two of warps
-  std::uint32_t blocks = 0;   // that are resident at once: barriers wait for all of them
+  std::uint32_t threads = 0;  // of a block; its number of warps is a power of two
+  std::uint32_t blocks = 0;   // not more than are resident at once, since barriers wait for all of them
   std::uint32_t shared_bytes = 0;
   std::uint32_t multiprocessors = 0;
 
@@ -35,24 +35,25 @@ inline std::uint32_t ring_share(std::uint32_t bodies, const LaunchShape& shape) 
   return share;
 }
 
-// Above this the tiles of tile_stage.cuh are sooner done: a warp of theirs tests 1024 pairs, one of ours 32.
+// Above this many bodies the tiles of tile_stage.cuh are faster: there a warp tests 1024 pairs, in small frames 32.
 constexpr std::uint32_t kMostSmallBodies = 512;
 
-// Whether frames that start so are small frames: their kernel has no other start and no other solver, and its response
-// has a thread of one block for each body.
+// Whether frames with this start are small frames. The kernel of small frames has no other start and no other solver,
+// and in its response one block has a thread for each body.
 inline bool is_small_frame(const FrameView& f, Start start) {
   return start == Start::kTiles && f.body_count <= kMostSmallBodies && f.body_count <= f.block_bodies &&
          f.solver == Solver::kColored;
 }
 
-// For trees of this many levels. An error says that the GPU has too little shared memory for one warp's stack.
+// The shape for vertex trees of this many levels. An error says that the GPU has too little shared memory for one
+// warp's stack.
 core::Result<LaunchShape> frame_launch_shape(std::uint32_t tree_levels);
 
-// One whole frame is this one launch, whatever its counts: every stage reads them on the device. Asynchronous.
+// One launch runs a whole frame, since every stage reads its counts on the device. Asynchronous.
 core::Status launch_frame(const SmallFrameView& frame, const LaunchShape& shape, StreamHandle stream);
 core::Status launch_frame(const GridFrameView& frame, const LaunchShape& shape, StreamHandle stream);
 
-// The broad phase alone; the same rules. Bulk pairs of enough boxes are sorted by a launch before.
+// The broad phase alone, by the same rules. If bulk pairs have enough boxes, a launch before this one sorts them.
 struct PairsView {
   std::uint32_t box_count = 0;
   const PackedBox* boxes = nullptr;  // low_tag = body, high_tag: 1 = static
@@ -63,22 +64,22 @@ struct PairsView {
   unsigned long long* barrier = nullptr;  // the barrier word
   Outcome* outcome = nullptr;
 };
-// Where bulk pairs are put in order by bins.
+// When bulk pairs are put in order by bins, and how.
 struct BinLimits {
   std::uint32_t least_boxes = 0;
-  std::uint32_t most_at_once = 0;  // bins that a tile counts; 0: as many as fit
+  std::uint32_t most_at_once = 0;  // the most bins that a tile counts; 0: as many as fit
 };
 struct PairsShape {
   LaunchShape search;
   LaunchShape sort;  // where there are bins
-  BinsShape bins;    // none also where the GPU has too little shared memory for them
+  BinsShape bins;    // none also if the GPU has too little shared memory for them
 };
 core::Result<PairsShape> pairs_launch_shape(Start start, std::uint32_t boxes, std::uint32_t buckets,
                                             const BinLimits& limits);
 core::Status launch_pairs(const PairsView& view, const PairsShape& shape, StreamHandle stream);
 
-// The sum of the digests of everything that the last frame left. Counts are read on the device, so that it can be
-// launched right behind the frame; a frame that was aborted has none. Asynchronous.
+// The sum of the digests of everything that the last frame left. The kernel reads counts on the device, so it can be
+// launched right after the frame. A frame that was aborted has no digest. Asynchronous.
 struct DigestView {
   std::uint32_t body_count = 0;
   StateView state;
@@ -88,7 +89,7 @@ struct DigestView {
   const core::Contact* contacts = nullptr;
   const core::Contact* face_contacts = nullptr;
   Counters* counters = nullptr;
-  unsigned long long* digest = nullptr;  // in host memory: what this is about
+  unsigned long long* digest = nullptr;  // the result, in host memory
 };
 core::Status launch_digest(const DigestView& view, std::uint32_t multiprocessors, StreamHandle stream);
 

@@ -14,7 +14,7 @@ template <typename View>
 core::Status FrameQueue::launch(View frame, const LaunchShape& shape) {
   frame.outcome = outcomes_.device(launched_ % kMost);
   frame.is_behind_unseen = under_way() != 0;
-  // Where nothing comes behind a frame, the stream is waited for.
+  // Marks the end of the frame before this one. If no frame comes after, the host waits for the whole stream instead.
   if (under_way() != 0) BROADSIDE_TRY(ends_[(launched_ - 1) % kMost].set(stream_));
   BROADSIDE_TRY(launch_frame(frame, shape, stream_));
   ++launched_;

@@ -10,33 +10,34 @@
 
 namespace broadside::gpu {
 
-// The host may launch a frame before it has seen the one before, and the GPU goes from one to the next without it. A
-// frame behind one that was aborted does nothing.
+// The host may launch a frame before it has seen how the one before ended, so the GPU goes from frame to frame without
+// waiting for the host. A frame that comes after an aborted one does nothing.
 class FrameQueue {
  public:
-  // One runs and one waits. With a third nothing is faster, and more has to be done again after an abort.
+  // One frame runs and one waits. A third would make nothing faster, and more frames would have to be repeated after an
+  // abort.
   static constexpr std::uint64_t kMost = 2;
 
-  // Empty. The stream, which others may use too, outlives this object's use.
+  // Makes an empty queue. Others may use the stream too; it must exist for as long as this object is used.
   core::Status create(StreamHandle stream);
-  // Behind those under way, fewer than kMost; `frame`, a SmallFrameView or a GridFrameView, is complete but for its
-  // outcomes. Returns at once.
+  // Launches a frame after those under way, which must be fewer than kMost. `frame` is a SmallFrameView or a
+  // GridFrameView, complete except for its outcome. Returns at once.
   template <typename View>
   core::Status launch(View frame, const LaunchShape& shape);
   [[nodiscard]] std::uint64_t under_way() const { return launched_ - seen_; }
 
-  // Until the oldest frame is done.
+  // Waits until the oldest frame is done.
   [[nodiscard]] core::Status wait() const;
-  // Of the oldest frame, when it is done; until launch.
+  // The outcome of the oldest frame; valid once it is done, until the next launch.
   [[nodiscard]] const Outcome& oldest() const { return outcomes_[seen_ % kMost]; }
-  // The oldest frame was seen.
+  // Removes the oldest frame, which the host has seen.
   void pop() { ++seen_; }
-  // Waits for all, and forgets them.
+  // Waits for all frames, and forgets them.
   core::Status clear();
 
  private:
   StreamHandle stream_ = nullptr;
-  // By turns.
+  // Frames use these in turn.
   Mapped<Outcome, kMost> outcomes_;
   StreamMark ends_[kMost];
   std::uint64_t launched_ = 0;

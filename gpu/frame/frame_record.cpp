@@ -17,7 +17,7 @@ std::vector<core::Vec3> unpacked(std::span<const PackedVec3> from) {
 
 std::vector<core::Contact> in_order_of_application(const FrameArrays& arrays) {
   std::vector<core::Contact> contacts(arrays.contacts.begin(), arrays.contacts.end());
-  // Depth 0 marks a pair that did not overlap any more when its turn came.
+  // Depth 0 marks a pair that no longer overlapped when its turn came.
   std::erase_if(contacts, [](const core::Contact& c) { return !(c.depth_m > 0.0F); });
   contacts.insert(contacts.end(), arrays.face_contacts.begin(), arrays.face_contacts.end());
   std::sort(contacts.begin(), contacts.end(), [](const core::Contact& p, const core::Contact& q) {
@@ -26,7 +26,7 @@ std::vector<core::Contact> in_order_of_application(const FrameArrays& arrays) {
   return contacts;
 }
 
-// Confirmed pairs and their nearest vertices, sorted together.
+// Sorts confirmed pairs together with their nearest vertices.
 void sort_confirmed(core::FrameRecord& frame) {
   std::vector<std::uint32_t> order(frame.confirmed.size());
   std::iota(order.begin(), order.end(), 0U);

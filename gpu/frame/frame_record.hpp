@@ -1,4 +1,4 @@
-// A frame's record from the arrays that the device made, in the record's order.
+// Makes a frame's record, in the record's order, from the arrays that the device made.
 #pragma once
 
 #include <cstdint>
@@ -36,8 +36,9 @@ struct FrameArrays {
   std::span<const core::Contact> face_contacts;
 };
 
-// The device appends in any order; here pairs and confirmed pairs are sorted, contacts put in their order of
-// application: by color, by pair, then by body and face. Fills all but step, time, digest and what a scene fixes.
+// The device appends in any order. Here pairs and confirmed pairs are sorted, and contacts are put in the order in
+// which they were applied: those of pairs by color and pair, then those with faces by body and face. Fills all but
+// step, time, digest and what a scene fixes.
 void fill_record(const FrameArrays& arrays, core::FrameRecord& frame);
 
 }  // namespace broadside::gpu

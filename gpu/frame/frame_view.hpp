@@ -1,5 +1,5 @@
-// What the kernel of every frame is given, by value: where everything of one simulation lies on the device. What small
-// frames and grid frames have of their own is in small_frame_view.hpp and grid_frame_view.hpp.
+// What the kernel of every frame gets by value: where the data of one simulation lie on the device.
+// small_frame_view.hpp and grid_frame_view.hpp add what only small frames, or only grid frames, need.
 #pragma once
 
 #include <cstdint>
@@ -54,7 +54,8 @@ struct StateView {
   PackedVec3* velocity = nullptr;
 };
 
-// A touching pair, and the places in which it came to each body's contacts; kNoRank for a body that is never written.
+// A touching pair, and its place among the contacts of each of the two bodies; kNoRank for a body that is never
+// written.
 constexpr std::uint32_t kNoRank = 0xFFFFFFFFU;
 struct alignas(16) Link {
   std::uint32_t i = 0;
@@ -73,9 +74,10 @@ struct alignas(16) ListEntry {
   std::uint32_t shape = 0;       // of the other body; kIsOurs: this body's thread resolves the contact
 };
 
-// A body while its contacts are resolved: how many of them are done, and the state that they left. Two words of 16
-// bytes, each written whole; the lowest bit of `tag` is that of `done`, so that a reader can tell whether both words
-// are of one moment. Above it: the color of the body's next contact, as far as the body has a say.
+// A body while its contacts are resolved: how many of them are done, and the state that they left. These are two words
+// of 16 bytes, each written whole. The lowest bit of `tag` repeats that of `done`, so that a reader can tell whether
+// both words were written together. The bits above hold the lowest color that the body's next contact may have, as far
+// as this body decides it.
 struct alignas(16) LiveBody {
   core::Vec3 x;
   std::uint32_t done = 0;
@@ -85,15 +87,15 @@ struct alignas(16) LiveBody {
 static_assert(sizeof(Link) == 16 && sizeof(ListEntry) == 16 && sizeof(LiveBody) == 32,
               "read and written in words of 16 bytes");
 
-// What the host reads after a frame, in host memory that the device writes: counts, and the device's clock when the
-// frame began and at the end of each stage.
+// What the host reads after a frame. The device writes it to host memory: counts, and the device's clock at the begin
+// of the frame and at the end of each stage.
 struct Outcome {
   Counters counters;
   unsigned long long begin_ns = 0;
-  unsigned long long stage_end_ns[core::kStageCount] = {};  // by core::Stage; of pairs alone, by FindStep
+  unsigned long long stage_end_ns[core::kStageCount] = {};  // by core::Stage; without a frame, by FindStep
 };
 
-// Fixed during a run, but for `previous` and `next`, which change places after every frame, and its outcome.
+// All of it is fixed during a run, except `previous` and `next`, which change places after every frame, and `outcome`.
 struct FrameView {
   std::uint32_t body_count = 0;
   core::Levels levels = core::Levels::kC;
@@ -109,8 +111,8 @@ struct FrameView {
   ShapesView shapes;
   const std::uint32_t* shape_of_body = nullptr;
   const core::Material* material = nullptr;
-  // By body, in the scene's order for each: body i has springs[spring_begin[i] .. spring_begin[i + 1]). Null: no
-  // springs.
+  // Springs by body, and in the scene's order for each: body i has springs[spring_begin[i] .. spring_begin[i + 1]).
+  // Null: no springs.
   const core::Spring* springs = nullptr;
   const std::uint32_t* spring_begin = nullptr;
   StateView previous;
@@ -119,13 +121,13 @@ struct FrameView {
   PackedBox* boxes = nullptr;  // at detection
 
   AppendView<core::Pair> pairs;
-  AppendView<core::Pair> confirmed;      // flat: the same memory as pairs
+  AppendView<core::Pair> confirmed;      // for flat levels the same memory as pairs
   core::Proximity* proximity = nullptr;  // one per confirmed pair
   std::uint32_t stack_entries = 0;       // of each warp's stack in the proximity stage
-  std::uint32_t block_bodies = 0;        // that one block resolves alone
-  std::uint32_t block_bytes = 0;         // of shared memory that a block has, beside what is fixed
+  std::uint32_t block_bodies = 0;        // the most bodies whose contacts one block resolves alone
+  std::uint32_t block_bytes = 0;         // shared memory of a block, without the fixed part
   Link* links = nullptr;                 // the touching pairs: as many as confirmed
-  unsigned long long* keys = nullptr;    // [2 * links] order of the contacts of each written body, as they came
+  unsigned long long* keys = nullptr;    // [2 * links] order keys of the contacts of each written body, as they came
   ListEntry* lists = nullptr;            // [2 * links] contacts of each written body, in their order
   core::Contact* contacts = nullptr;     // one slot per link; depth 0 = no contact
   AppendView<core::Contact> face_contacts;
@@ -133,20 +135,20 @@ struct FrameView {
   std::uint32_t* degree = nullptr;      // [bodies] contacts of a written body
   std::uint32_t* list_begin = nullptr;  // [bodies]
 
-  Counters* counters = nullptr;  // until this frame begins, those of the frame before it
+  Counters* counters = nullptr;  // until this frame begins, they are those of the frame before
   // The barrier word.
   unsigned long long* barrier = nullptr;
   Outcome* outcome = nullptr;
-  // The host has not seen yet how the frame before ended: when it was aborted, this one does nothing.
+  // True if the host has not seen yet how the frame before ended: if that was aborted, this frame does nothing.
   bool is_behind_unseen = false;
 };
 
-// A scene with one shape needs no load.
+// If the scene has one shape, nothing is loaded.
 BROADSIDE_HD std::uint32_t shape_of(const FrameView& f, std::uint32_t body) {
   return f.shapes.count == 1 ? 0U : f.shape_of_body[body];
 }
 
-// At detection.
+// The body's shape at detection.
 BROADSIDE_HD PlacedShape placed_shape(const FrameView& f, std::uint32_t body) {
   return {f.detected.position[body].v, shape_of(f, body)};
 }

@@ -8,7 +8,7 @@ namespace broadside::gpu {
 
 struct GridFrameView : FrameView {
   BroadView broad;
-  LiveBody* live = nullptr;  // [bodies] where one block does not resolve them in its shared memory
+  LiveBody* live = nullptr;  // [bodies] if contacts are not resolved by one block in its shared memory
 };
 
 }  // namespace broadside::gpu

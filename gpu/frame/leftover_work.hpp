@@ -1,5 +1,5 @@
-// Leftover work: what remains of a long search for a pair's nearest vertices when a team of warps leaves it to the
-// whole grid.
+// Leftover work: the rest of a long search for a pair's nearest vertices, which a team of warps leaves to the whole
+// grid.
 #pragma once
 
 #include <cstdint>
@@ -21,9 +21,9 @@ struct NodePair {
 
 struct LeftoverSearch {
   PlacedPair bodies;
-  std::uint32_t k = 0;      // the pair's place among those that are measured
+  std::uint32_t k = 0;      // the pair's place among the pairs that are measured
   float bound_m2 = 0.0F;    // the smallest squared distance so far
-  std::uint32_t nodes = 0;  // entries that are pairs of nodes; pairs of leaves follow them
+  std::uint32_t nodes = 0;  // how many entries are pairs of nodes; pairs of leaves follow them
   std::uint32_t leaves = 0;
 };
 static_assert(sizeof(LeftoverSearch) == 48, "read in words of 16 bytes");

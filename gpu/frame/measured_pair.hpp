@@ -7,7 +7,7 @@
 
 namespace broadside::gpu {
 
-// Other warps may test the pair's levels meanwhile: `nearest` of a pair that they reject means nothing.
+// Other warps may test the pair's levels at the same time. If they reject the pair, `nearest` is meaningless.
 struct alignas(16) MeasuredPair {
   core::Proximity nearest;
   std::uint32_t is_rejected = 0;

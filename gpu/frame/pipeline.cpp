@@ -17,7 +17,7 @@ Pipeline::Pipeline(const PipelineOptions& options) : impl_(std::make_unique<Impl
 Pipeline::~Pipeline() = default;
 
 Start Pipeline::Impl::chosen_start() const {
-  // E2 and E7 are faults of the published scene octree: without it there would be nothing to see.
+  // E2 and E7 are errors of the published scene octree: no other start would show them.
   if (options.variant == core::Variant::kE2 || options.variant == core::Variant::kE7) return Start::kOctree;
   switch (options.broad) {
     case Broad::kTree:
@@ -55,7 +55,7 @@ core::Status Pipeline::load(const core::Scene& scene) {
   if (!stream.ok()) return stream.error();
   d.stream = stream.value();
   BROADSIDE_TRY(d.copy_stream.create());
-  // A digest of the scene before may be under way.
+  // A digest of the scene that was loaded before may still be under way.
   BROADSIDE_TRY(wait_for_stream(d.stream, "the end of the scene before"));
   BROADSIDE_TRY(d.frames.create(d.stream));
   BROADSIDE_TRY(d.digests.allocate());
@@ -79,12 +79,12 @@ core::Status Pipeline::load(const core::Scene& scene) {
   d.view.domain = scene.domain;
   d.view.face_material = scene.face_material;
   d.view.stack_entries = stack_entries_of(d.device_scene.tree_levels());
-  // One body a thread: with more, a block takes longer than the grid.
+  // One body a thread: with more, one block takes longer than the grid.
   d.view.block_bodies =
       std::min(d.launch.threads, static_cast<std::uint32_t>(d.launch.shared_bytes / sizeof(LiveBody)));
   d.view.block_bytes = d.launch.shared_bytes;
   d.device_scene.fill(d.view);
-  // Uploads ran on the default stream, which this one does not wait for.
+  // Uploads ran on the default stream, and this stream does not wait for that one.
   d.broad.fill(d.broad_view);
   d.buffers.fill(d.view);
   return wait_for_device("loading the scene");

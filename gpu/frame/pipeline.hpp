@@ -1,4 +1,4 @@
-// The pipeline on the GPU: METHOD sections 1 to 6, all state on the device.
+// The pipeline on the GPU: METHOD sections 1 to 6, with all state on the device.
 #pragma once
 
 #include <cstdint>
@@ -22,8 +22,8 @@ struct PipelineOptions {
   // kBrute = the published start, the first of the levels by brute force.
   Broad broad = Broad::kTree;
   float hash_cell_m = 0.0F;                            // of kHash; 0 = the scene's
-  std::uint32_t least_for_grid = kLeastBodiesForGrid;  // kTree tests all pairs of fewer bodies
-  // Shapes of fewer bodies get no cells of near vertices, which cost memory and time at load.
+  std::uint32_t least_for_grid = kLeastBodiesForGrid;  // with fewer bodies kTree tests all pairs
+  // Shapes that fewer bodies have get no cells of near vertices, because these cost memory and time at load.
   std::uint32_t least_for_cells = 16;
   core::Levels levels = core::Levels::kC;
   Solver solver = Solver::kColored;
@@ -49,10 +49,10 @@ class Pipeline final : public core::Dynamics,
   ~Pipeline() override;
 
   core::Status load(const core::Scene& scene) override;
-  // One kernel launch; again, from the same state, when a buffer turned out too small. Synchronizes.
+  // One kernel launch, repeated from the same state if a buffer was too small. Synchronizes.
   core::Status step(float dt_s) override;
-  // The same launches, each before the host has seen the frame before: the GPU never waits for it, but when a buffer
-  // turned out too small.
+  // The same launches, but each is made before the host has seen how the frame before ended. So the GPU waits for the
+  // host only if a buffer was too small.
   core::Status run(float dt_s, std::uint64_t steps, const StepDone& step_done) override;
   core::Status read_back(core::FrameRecord& frame, core::RecordLevel level) override;
   [[nodiscard]] core::Result<core::DeviceFrame> frame_on_device() override;
@@ -61,9 +61,9 @@ class Pipeline final : public core::Dynamics,
   [[nodiscard]] std::uint32_t groups() const override;
   // Read off the GPU's clock within the one kernel: integrate, broad, levels, vertices, response, faces.
   [[nodiscard]] std::span<const core::StageTime> stage_times() const override;
-  // Launches of the frame kernel, pairs that the level stage was given, and bytes of device memory; where it was asked
-  // to count work, box tests of broad phase and levels and nodes visited. Nothing that depends on the GPU or on the
-  // order of its threads.
+  // Counts launches of the frame kernel, pairs that came to the level stage, and bytes of device memory; if it was
+  // asked to count work, also box tests of broad phase and levels, and nodes visited. No count depends on the GPU or on
+  // the order of its threads.
   [[nodiscard]] std::vector<core::Counter> counters() const override;
 
   void count_work() override;

@@ -1,4 +1,4 @@
-// What a pipeline tells of a frame: its digest, and copies that are under way while later frames are computed.
+// What a pipeline hands out of a frame: its digest, and copies that are made while later frames are computed.
 #include "gpu/frame/pipeline_parts.hpp"
 #include "gpu/runtime/device_choice.hpp"
 
@@ -18,7 +18,7 @@ core::Status Pipeline::Impl::start_digest(const StateView& state, std::uint64_t 
   return launch_digest(digest, launch.multiprocessors, stream);
 }
 
-// For copies under way whose digests are done.
+// Gives the copies under way their digests, which are done.
 void Pipeline::Impl::take_digests() {
   for (std::uint64_t k = copies_finished; k < copies_started; ++k) {
     FrameCopy& copy = copies[k % copies.size()];

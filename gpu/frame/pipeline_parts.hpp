@@ -1,4 +1,4 @@
-// What a pipeline consists of: for its own sources, pipeline*.cpp.
+// The members of a pipeline; only its own sources, pipeline*.cpp, include this.
 #pragma once
 
 #include <array>
@@ -21,7 +21,7 @@ struct Pipeline::Impl {
   const core::Scene* scene = nullptr;
   StreamHandle stream = nullptr;  // frame_stream()
   Stream copy_stream;
-  Mapped<unsigned long long, 2> digests;  // of frames whose step is even, and odd
+  Mapped<unsigned long long, 2> digests;  // [0]: of frames whose step is even; [1]: odd
   FrameQueue frames;
   DeviceScene device_scene;
   FrameBuffers buffers;
@@ -29,19 +29,19 @@ struct Pipeline::Impl {
   StreamMark frame_end;
   LaunchShape launch;
   WorkCounter work;
-  FrameView view;  // of every frame
+  FrameView view;  // what is the same in every frame
   BroadView broad_view;
   Counters last;
   std::array<core::StageTime, core::kStageCount> times{};
   std::uint64_t steps = 0;
   std::uint64_t repeats = 0;
   std::uint64_t pairs_tested = 0;
-  std::uint64_t all_pairs = 0;  // of the scene, without those of two static bodies
-  // The last step whose digest was read, and how many steps after the one before. 0 before the first.
+  std::uint64_t all_pairs = 0;  // pairs of bodies in the scene, except two static bodies
+  // The last step whose digest was read, and how many steps lie between it and the read before. 0 before the first.
   std::uint64_t asked_step = 0;
   std::uint64_t asked_stride = 0;
-  bool has_digest = false;  // that of the last step is on its way: its kernel is in the stream
-  // Frames on their way to the host: two, by turns.
+  bool has_digest = false;  // the kernel of the last step's digest is in the stream
+  // Frames on their way to the host: two, used in turn.
   std::array<FrameCopy, 2> copies;
   std::uint64_t copies_started = 0;
   std::uint64_t copies_finished = 0;
@@ -53,7 +53,8 @@ struct Pipeline::Impl {
   [[nodiscard]] std::uint64_t confirmed_count() const { return is_confirmed_by_level0() ? last.pairs : last.confirmed; }
   [[nodiscard]] Start chosen_start() const;
   [[nodiscard]] bool starts_at_level0() const { return chosen_start() != Start::kNone; }
-  // Whether somebody will ask for the digest of the next frame, to judge by when they asked before.
+  // Whether the digest of the next frame will probably be asked for: it is if reads keep the distance that they last
+  // had.
   [[nodiscard]] bool expects_digest() const { return steps > 0 && steps + 1 == asked_step + asked_stride; }
   [[nodiscard]] LaunchShape frame_shape() const;
   [[nodiscard]] bool levels_come_first(const LaunchShape& shape) const;

@@ -1,12 +1,12 @@
-// A pipeline's frames: launched, waited for, repeated with larger buffers, counted as steps.
+// How a pipeline launches frames, waits for them, repeats them with larger buffers, and counts them as steps.
 #include <algorithm>
 
 #include "gpu/frame/pipeline_parts.hpp"
 
 namespace broadside::gpu {
 
-// A barrier of few blocks is faster; more than one a multiprocessor pays when there is work for them, as there is
-// where all levels are tested for all pairs.
+// A barrier of few blocks is faster. More than one block a multiprocessor pays if there is work for them, as there is
+// if all pairs are tested at all levels.
 LaunchShape Pipeline::Impl::frame_shape() const {
   LaunchShape shape = launch;
   if (view.body_count < kLeastBodiesForGrid && broad_view.start != Start::kNone)
@@ -14,9 +14,9 @@ LaunchShape Pipeline::Impl::frame_shape() const {
   return shape;
 }
 
-// Of a small frame. Levels that come with the vertex search cost no time, because idle warps test them. But if there
-// are more pairs than the grid has large teams of warps, with one warp more for each, it is better to test levels
-// first: the pairs that remain get more warps each. The last frame that the host has seen says how many pairs there
+// For a small frame. Levels that are tested during the vertex search cost no time, because idle warps test them. But if
+// there are more pairs than the grid has large teams of warps, each with one warp more, it is better to test levels
+// first: then each pair that remains gets more warps. The last frame that the host has seen says how many pairs there
 // are. A large team is a quarter of a block where cells are looked up, and a block where two trees are descended.
 bool Pipeline::Impl::levels_come_first(const LaunchShape& shape) const {
   if (view.levels == core::Levels::kFlat) return false;
@@ -25,7 +25,7 @@ bool Pipeline::Impl::levels_come_first(const LaunchShape& shape) const {
   return !view.has_vertex_stage || last.pairs * (large + 1) > shape.blocks * warps;
 }
 
-// Behind those under way.
+// Launches a frame after those under way.
 core::Status Pipeline::Impl::launch_frame() {
   buffers.fill(view, frames.under_way());
   broad.fill(broad_view);
@@ -49,7 +49,7 @@ GridFrameView Pipeline::Impl::grid_view() const {
   return grid;
 }
 
-// The only one under way.
+// Waits for the only frame under way.
 core::Status Pipeline::Impl::wait_for_frame() {
   if (!has_digest) return frames.wait();
   // The host waits for the frame alone: the digest is added up while the host prepares the next launch.
@@ -58,8 +58,8 @@ core::Status Pipeline::Impl::wait_for_frame() {
   return frame_end.wait("a frame");
 }
 
-// The oldest frame is done. When its buffers were too small they have grown, and it has to be launched again from the
-// state before it.
+// Called when the oldest frame is done. Returns false if its buffers were too small: they have grown, and the frame
+// must be launched again from the state before it.
 core::Result<bool> Pipeline::Impl::is_kept() {
   last = frames.oldest().counters;
   if (last.is_aborted == 0) return true;
@@ -70,9 +70,9 @@ core::Result<bool> Pipeline::Impl::is_kept() {
   return false;
 }
 
-// The oldest frame, which is kept, is a step from now on.
+// Counts the oldest frame, which is kept, as a step.
 void Pipeline::Impl::take_frame() {
-  // What was in the stream before it is done.
+  // What was put into the stream before this frame is done.
   take_digests();
   unsigned long long begin_ns = frames.oldest().begin_ns;
   for (std::size_t k = 0; k < core::kStageCount; ++k) {
@@ -87,7 +87,7 @@ void Pipeline::Impl::take_frame() {
   dt_s = static_cast<double>(view.dt_s);
 }
 
-// After an error nothing is under way: the device would use memory that this object may free now.
+// After an error, waits until no frame is under way: the device would use memory that this object may free now.
 core::Status Pipeline::Impl::settled(core::Status status) {
   if (!status.ok()) (void)frames.clear();
   return status;
@@ -115,7 +115,7 @@ core::Status Pipeline::Impl::run_alone() {
 core::Status Pipeline::run(float dt_s, std::uint64_t steps, const StepDone& step_done) {
   impl_->view.dt_s = dt_s;
   if (!impl_->work.is_asked()) return impl_->settled(impl_->run_ahead(steps, step_done));
-  // Work is counted from what a frame left, so no frame is launched ahead.
+  // Work is counted from what a frame left in memory, so no frame is launched ahead.
   bool goes_on = true;
   for (std::uint64_t k = 0; k < steps && goes_on; ++k) {
     BROADSIDE_TRY(step(dt_s));
@@ -126,7 +126,7 @@ core::Status Pipeline::run(float dt_s, std::uint64_t steps, const StepDone& step
 
 core::Status Pipeline::Impl::run_ahead(std::uint64_t steps_asked, const StepDone& step_done) {
   std::uint64_t end = steps + steps_asked;
-  bool is_told = true;  // step_done is called for each step
+  bool is_told = true;  // step_done is still to be called
   while (steps < end) {
     while (frames.under_way() < FrameQueue::kMost && steps + frames.under_way() < end) BROADSIDE_TRY(launch_frame());
     BROADSIDE_TRY(frames.wait());

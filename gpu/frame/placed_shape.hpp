@@ -1,4 +1,4 @@
-// A body as searches see it: bodies translate only.
+// A body as searches see it: a shape at a place, since bodies only translate.
 #pragma once
 
 #include <cstdint>
@@ -13,11 +13,11 @@ struct alignas(16) PlacedShape {
   core::Vec3 x;
   std::uint32_t shape = 0;
 
-  // Of its octree, among those of all shapes.
+  // The first box of its octree among those of all shapes.
   BROADSIDE_HD std::uint32_t first_box() const { return shape * core::kBodyOctreeNodes; }
 };
 
-// Of a pair, in its order.
+// The two bodies of a pair, in its order.
 struct PlacedPair {
   PlacedShape i;
   PlacedShape j;

@@ -1,4 +1,4 @@
-// How many parts each body's pairs are dealt in: the ring is that of stages/broad/body_ring.cuh.
+// Into how many parts each body's pairs are dealt, on the ring of stages/broad/body_ring.cuh.
 #pragma once
 
 #include <cstdint>
@@ -7,7 +7,8 @@
 
 namespace broadside::gpu {
 
-// Of `bodies` on a ring, each is paired with those on the half behind it: in so many shares of `share` places.
+// On a ring of `bodies`, each body is paired with those on the half that follows it. Returns how many shares of `share`
+// places that makes.
 BROADSIDE_HD std::uint32_t ring_shares(std::uint32_t bodies, std::uint32_t share) {
   return (bodies / 2 + share - 1) / share;
 }

@@ -1,4 +1,4 @@
-// What the kernel of small frames is given, by value.
+// What the kernel of small frames gets by value.
 #pragma once
 
 #include <cstdint>
@@ -11,16 +11,16 @@
 namespace broadside::gpu {
 
 struct SmallFrameView : FrameView {
-  // The levels below 0 are tested where pairs are found, not while their vertices are searched.
+  // True if the levels below 0 are tested where pairs are found, not while their vertices are searched.
   bool are_levels_first = false;
   std::uint32_t ring_share = 1;             // places of the ring that a warp takes
   MeasuredPair* measured = nullptr;         // one per pair whose vertices are searched
-  PlacedPair* placed = nullptr;             // likewise
-  unsigned long long* given_out = nullptr;  // pairs that warps took to search; zero between frames
+  PlacedPair* placed = nullptr;             // where the bodies of such a pair are
+  unsigned long long* given_out = nullptr;  // how many pairs warps have taken to search; zero between frames
   LeftoverView leftovers[2];
 };
 
-// Whether the vertex stage is given pairs whose levels are still to be tested.
+// Whether pairs come to the vertex stage before their levels are tested.
 BROADSIDE_HD bool are_levels_left(const SmallFrameView& f) {
   return f.levels != core::Levels::kFlat && !f.are_levels_first;
 }

@@ -1,4 +1,4 @@
-// Pairs of moving boxes with standing ones on fibers of the host: two blocks of two warps.
+// Runs the search for pairs of moving and standing boxes on fibers of the host: two blocks of two warps.
 #include "gpu/stages/pairs_only/cross_search.cuh"
 
 namespace broadside::gpu {

@@ -1,6 +1,6 @@
-// The part of CUDA's device language that the stages use, for the host's compiler: the threads of a kernel are fibers
-// of one OS thread (fibers.hpp), and every barrier, vote and shuffle waits for all of them. Slow and exact: a
-// missing participant is a deadlock that is reported, and the order in which fibers run is shuffled by a seed.
+// The part of CUDA's device language that the stages use, for the host's compiler. The threads of a kernel are fibers
+// of one OS thread (fibers.hpp), and every barrier, vote and shuffle waits for all fibers that take part. This is slow
+// and strict: if a fiber never comes, the deadlock is reported, and a seed shuffles the order in which fibers run.
 #pragma once
 
 #include <algorithm>
@@ -34,7 +34,7 @@ namespace broadside::gpu {
 using std::max;
 using std::min;
 
-// As CUDA's names; each is the running fiber's.
+// These have CUDA's names; each gives the value of the running fiber.
 #define threadIdx (::broadside::gpu::on_host::self().thread)
 #define blockIdx (::broadside::gpu::on_host::self().block)
 #define blockDim (::broadside::gpu::on_host::launch().block_size)
@@ -50,13 +50,14 @@ class GridBarrier {
     if (threadIdx.x == 0) *word_ += GridWord::share(blockIdx.x, gridDim.x);
     on_host::sync_grid();
   }
-  // Between the two a thread sees nothing of the others, so all of it may happen before they arrive.
+  // Between arrive() and wait() a thread needs nothing from other threads, so arrive() may do nothing and wait() is the
+  // whole barrier.
   void arrive() {}
   void wait() { sync(); }
   unsigned long long sync_and_read(unsigned long long* /*in_block*/) {
     sync();
     const unsigned long long tally = *word_ & GridWord::kTally;
-    // Nobody goes on to change it before all have seen it.
+    // No fiber goes on to change the word before all have read it.
     on_host::sync_grid();
     return tally;
   }
@@ -71,7 +72,7 @@ struct ClusterBarrier {
 inline void __syncthreads() {
   on_host::sync_block(false);
 }
-// Blocks have two warps: a team of more than one is the block.
+// Blocks have two warps, so a team of more than one warp is the block.
 inline void sync_warps(std::uint32_t /*team*/, std::uint32_t /*warps*/) {
   on_host::sync_block(false);
 }
@@ -117,7 +118,7 @@ inline unsigned __ballot_sync(unsigned, bool value) {
 inline bool __any_sync(unsigned mask, bool value) {
   return __ballot_sync(mask, value) != 0;
 }
-// Fibers never run side by side.
+// Fibers never run at the same time.
 inline unsigned __activemask() {
   return 1U << (threadIdx.x % 32);
 }

@@ -1,4 +1,4 @@
-// Three devices that are all the host: enough that one has several parts of a set while another has one.
+// Three devices, each of which is the host: enough for one to have several parts of a set while another has one.
 #include <cstring>
 #include <string>
 

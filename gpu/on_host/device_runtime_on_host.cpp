@@ -8,7 +8,7 @@ namespace broadside::gpu {
 core::Result<void*> allocate_device_bytes(std::size_t bytes, const char* what) {
   void* memory = std::malloc(bytes);
   if (memory == nullptr) return core::Error{"out of memory", what, "use a smaller scene", core::Exit::kMissing};
-  std::memset(memory, 0xA5, bytes);  // as on a GPU, it holds what was there before, not zeros
+  std::memset(memory, 0xA5, bytes);  // as on a GPU, new memory is not zero
   return memory;
 }
 

@@ -7,8 +7,8 @@
 namespace broadside::gpu::on_host {
 
 struct FiberContext::State {
-  ucontext_t first;    // where the context begins; where it is, under a sanitizer
-  std::jmp_buf again;  // where it is, once it was left
+  ucontext_t first;    // where the context begins; under a sanitizer, where it is
+  std::jmp_buf again;  // where it goes on, once it was left
   bool was_left = false;
 };
 
@@ -17,7 +17,8 @@ FiberContext::FiberContext(FiberContext&& other) noexcept = default;
 FiberContext& FiberContext::operator=(FiberContext&& other) noexcept = default;
 FiberContext::~FiberContext() = default;
 
-// getcontext() may return twice as far as the compiler knows: not in a loop, whose variables it would not trust then.
+// Not inlined: the compiler must assume that getcontext() returns twice, and in a caller's loop it could then not keep
+// variables in registers.
 [[gnu::noinline]] void FiberContext::begin(unsigned char* stack, std::size_t stack_bytes, void (*entry)()) {
   ucontext_t& first = state_->first;
   getcontext(&first);
@@ -29,13 +30,13 @@ FiberContext::~FiberContext() = default;
 }
 
 #ifdef BROADSIDE_IS_SANITIZED
-// A sanitizer follows swapcontext(), and takes a jump to another stack for a mistake.
+// Sanitizers understand swapcontext(), but report a jump to another stack as an error.
 [[gnu::noinline]] void FiberContext::switch_over(FiberContext& own, FiberContext& next) {
   swapcontext(&own.state_->first, &next.state_->first);
 }
 #else
-// Jumps, since swapcontext() calls the system at every switch, for the mask of signals, which is the same in all
-// fibers.
+// Uses jumps, because swapcontext() makes a system call at every switch to set the signal mask, which is the same in
+// all fibers.
 [[gnu::noinline]] void FiberContext::switch_over(FiberContext& own, FiberContext& next) {
   own.state_->was_left = true;
   if (_setjmp(own.state_->again) != 0) return;

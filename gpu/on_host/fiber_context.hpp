@@ -1,4 +1,4 @@
-// Where a fiber, or the scheduler of fibers, goes on when it is switched to.
+// The place at which a fiber, or the scheduler of fibers, goes on when it is switched to.
 #pragma once
 
 #include <cstddef>
@@ -13,9 +13,9 @@ class FiberContext {
   FiberContext& operator=(FiberContext&& other) noexcept;
   ~FiberContext();
 
-  // The first switch to this context calls `entry`, which never returns, on that stack.
+  // The first switch to this context calls `entry`, which must never return, on that stack.
   void begin(unsigned char* stack, std::size_t stack_bytes, void (*entry)());
-  // Leaves the running context, `own`, for `next`, and returns when somebody switches to `own`.
+  // Leaves the running context, `own`, for `next`. Returns when another context switches back to `own`.
   static void switch_over(FiberContext& own, FiberContext& next);
 
  private:

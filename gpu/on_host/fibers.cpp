@@ -14,15 +14,15 @@ namespace broadside::gpu::on_host {
 namespace {
 
 constexpr std::size_t kStackBytes = std::size_t{128} << 10U;
-// Rounds over all fibers in which no barrier opened and no fiber returned: far more than any spin needs.
+// The most rounds over all fibers in which no barrier opens and no fiber returns: far more than any spin loop needs.
 constexpr std::uint64_t kMostIdleRounds = 1'000'000;
 
-// A barrier for a fixed number of fibers, used again and again. It has two sets of slots in turn: no fiber can write a
-// value for the barrier after next before all have left this one.
+// A barrier for a fixed number of fibers, used again and again. It uses two sets of slots in turn, which is enough: no
+// fiber writes for the barrier after next before all fibers have left this one.
 struct Barrier {
   unsigned members = 0;
   unsigned arrived = 0;
-  std::uint64_t passed = 0;  // how often all were there
+  std::uint64_t passed = 0;  // how often all fibers have arrived
   bool any[2] = {};
   std::uint64_t slots[2][32] = {};
 };
@@ -31,7 +31,7 @@ struct Fiber {
   FiberContext context;
   Place place;
   const Barrier* waits_at = nullptr;
-  std::uint64_t passed = 0;  // of that barrier, when the fiber came
+  std::uint64_t passed = 0;  // Barrier::passed when the fiber arrived
   bool is_done = false;
 };
 
@@ -50,7 +50,7 @@ struct Grid {
 
 Grid* grid = nullptr;
 
-// Stacks are kept for the next launch: most launches are short, and new stacks would take longer than they do.
+// Stacks are kept for the next launch: most launches are so short that making new stacks would take longer.
 std::vector<std::unique_ptr<unsigned char[]>> stacks;
 
 void enter() {
@@ -66,7 +66,7 @@ void wait_at(Barrier& barrier) {
   if (++barrier.arrived == barrier.members) {
     barrier.arrived = 0;
     ++barrier.passed;
-    barrier.any[barrier.passed % 2] = false;  // of the next one
+    barrier.any[barrier.passed % 2] = false;  // for the next barrier
     ++grid->events;
     return;
   }
@@ -77,7 +77,7 @@ void wait_at(Barrier& barrier) {
   own.waits_at = nullptr;
 }
 
-// A fiber whose barrier has not opened would go back at once: two switches for nothing.
+// Whether the fiber waits at a barrier that has not opened. It is not switched to, since it would only switch back.
 bool is_held(const Fiber& fiber) {
   return fiber.waits_at != nullptr && fiber.waits_at->passed == fiber.passed;
 }
@@ -124,7 +124,8 @@ void run(const Launch& launch, std::size_t shared_bytes, const std::function<voi
   own.fibers.resize(threads);
   own.warps.resize(threads / 32);
   own.blocks.resize(launch.grid_size.x);
-  // What a kernel reads before it was written is not zero by chance.
+  // Filled with a pattern, so that a kernel that reads shared memory before it is written does not find zeros by
+  // chance.
   own.shared.assign(launch.grid_size.x, std::vector<unsigned char>(shared_bytes + 1, 0xA5));
   for (Barrier& warp : own.warps) warp.members = 32;
   for (Barrier& block : own.blocks) block.members = launch.block_size.x;

@@ -1,5 +1,5 @@
-// Runs a kernel on the host: every thread of the grid is a fiber, and all of them are alive at once, as in a
-// cooperative launch.
+// Runs a kernel on the host. Every thread of the grid is a fiber, and all fibers are alive at once, as in a cooperative
+// launch.
 #pragma once
 
 #include <cstdint>
@@ -28,14 +28,14 @@ struct Place {
 // that some thread never reaches ends the program with a line that says so. Not re-entrant.
 void run(const Launch& launch, std::size_t shared_bytes, const std::function<void(unsigned char* shared)>& body);
 
-// For code that runs in a fiber.
+// These are for code that runs in a fiber.
 const Place& self();
 const Launch& launch();
 void yield();
 void sync_grid();
-// True when any thread of the block brought true.
+// A barrier of the block. Returns true if any of its threads passed true.
 bool sync_block(bool value);
-// Waits for the warp. Returns the values of its 32 lanes, which are good until the next call but one.
+// A barrier of the warp. Returns the values of its 32 lanes, which stay valid until the call after the next one.
 const std::uint64_t* exchange(std::uint64_t value);
 std::uint64_t now_ns();
 

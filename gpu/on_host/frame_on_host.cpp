@@ -1,4 +1,4 @@
-// The launches of frames and of pairs on fibers of the host.
+// Runs the launches of frames and of pairs on fibers of the host.
 #include <algorithm>
 
 #include "gpu/broad/named_pairs_view.hpp"

@@ -1,4 +1,4 @@
-// What keeps pairs between frames, on fibers of the host: two blocks of two warps.
+// Runs the launches that keep pairs between frames on fibers of the host: two blocks of two warps.
 #include "gpu/stages/pairs_only/kept.cuh"
 
 namespace broadside::gpu {

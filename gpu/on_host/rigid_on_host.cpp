@@ -15,7 +15,7 @@ namespace {
 
 using on_host::kBlocks;
 using on_host::kThreads;
-// Of the solver: so few that some colors of a small heap have more patches.
+// Threads of the solver: so few that even in a small heap some colors have more patches than threads.
 constexpr std::uint32_t kSolveThreads = 32;
 
 }  // namespace

@@ -1,4 +1,4 @@
-// What a frame of turning bodies tells, on fibers of the host: two blocks of two warps.
+// Runs the launch that reports a frame of turning bodies on fibers of the host: two blocks of two warps.
 #include "gpu/stages/rigid/told_stage.cuh"
 
 namespace broadside::gpu {

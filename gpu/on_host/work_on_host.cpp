@@ -6,7 +6,7 @@
 namespace broadside::gpu {
 namespace {
 
-// Other threads than a frame's: counts must not depend on them.
+// Not as many threads as a frame has, because counts must not depend on the number of threads.
 constexpr on_host::Launch kWorkLaunch{{3}, {64}, 7};
 
 }  // namespace

@@ -1,4 +1,4 @@
-// The one way in which a CUDA call's return code becomes an Error.
+// Turns a CUDA call's return code into an Error. All calls are checked this way.
 #pragma once
 
 #include <cuda_runtime_api.h>

@@ -1,4 +1,4 @@
-// Device memory with an owner.
+// Device memory that this object owns.
 #pragma once
 
 #include <cstddef>
@@ -27,8 +27,8 @@ class DeviceBuffer {
   }
   ~DeviceBuffer() { release(); }
 
-  // At least this many elements (and never none, so that data() is a pointer); contents are lost when it grows. The old
-  // memory is given back first, so growing needs no room for both.
+  // Makes room for at least this many elements, and for at least one, so that data() is never null. Contents are lost
+  // when it grows: the old memory is released first, so that growing does not need room for both.
   core::Status reserve(std::size_t count, const char* what) {
     if (data_ != nullptr && count <= capacity_) return core::Done{};
     release();
@@ -40,15 +40,15 @@ class DeviceBuffer {
     return core::Done{};
   }
 
-  // Returns when the host's bytes were read.
+  // Returns once the host's bytes were read.
   core::Status upload(std::span<const T> from, const char* what) {
     BROADSIDE_TRY(reserve(from.size(), what));
     if (!from.empty()) BROADSIDE_TRY(copy_to_device(data_, from.data(), from.size_bytes()));
     return core::Done{};
   }
 
-  // Of another buffer, in the stream's turn. With room for more, because what is kept of one step is seldom as large as
-  // that of the next.
+  // Copies from another buffer, in the stream's order. Reserves more room than needed, because the next step's copy is
+  // often larger.
   core::Status copy(const DeviceBuffer& from, std::size_t count, StreamHandle stream, const char* what) {
     if (data_ == nullptr || count > capacity_) BROADSIDE_TRY(reserve(count + count / 4, what));
     return count == 0 ? core::Status(core::Done{}) : copy_on_device(data_, from.data_, count * sizeof(T), stream);

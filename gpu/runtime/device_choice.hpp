@@ -1,5 +1,5 @@
 // Several devices of one host: which of them this thread works on, and copies from one to another. Two files implement
-// it, as device_runtime.hpp.
+// this header, as they do device_runtime.hpp.
 #pragma once
 
 #include <cstddef>
@@ -14,13 +14,13 @@ core::Result<int> device_count();
 core::Result<int> current_device();
 core::Status use_device(int device);
 
-// Lets copies from `peer` go straight to `device`, where the machine can; elsewhere they pass through the host.
+// Lets copies from `peer` go directly to `device` if the machine can do that; else they pass through the host.
 core::Status let_reach(int device, int peer);
-// Asked of the stream, which is of either device; returns at once.
+// Puts the copy into the stream, which may belong to either device; returns at once.
 core::Status copy_between_devices(void* to, int to_device, const void* from, int from_device, std::size_t bytes,
                                   StreamHandle stream);
 
-// Goes back to the device of before at the end of a scope.
+// At the end of a scope, goes back to the device that this thread used before.
 class DeviceScope {
  public:
   DeviceScope() {

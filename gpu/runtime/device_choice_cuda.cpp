@@ -27,7 +27,7 @@ core::Status use_device(int device) {
 
 core::Status let_reach(int device, int peer) {
   if (device == peer) return core::Done{};
-  // Once enabled it stays for the process. Asking again is an error of CUDA, which its checkers report.
+  // Access stays enabled for the whole process. Enabling it again is an error, which CUDA's checkers report.
   static std::mutex mutex;
   static std::set<std::pair<int, int>> enabled;
   const std::lock_guard lock(mutex);
@@ -37,8 +37,8 @@ core::Status let_reach(int device, int peer) {
   if (can == 0) return core::Done{};
   BROADSIDE_TRY(use_device(device));
   const cudaError_t code = cudaDeviceEnablePeerAccess(peer, 0);
-  if (code == cudaErrorPeerAccessAlreadyEnabled)  // by somebody else in this process
-    (void)cudaGetLastError();                     // so that it does not fail the next call
+  if (code == cudaErrorPeerAccessAlreadyEnabled)  // by other code of this process
+    (void)cudaGetLastError();                     // clear the error for the next call
   else
     BROADSIDE_TRY(cuda_status(code, "reaching another device"));
   enabled.emplace(device, peer);

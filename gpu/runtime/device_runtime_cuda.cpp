@@ -21,7 +21,7 @@ core::Result<void*> allocate_device_bytes(std::size_t bytes, const char* what) {
   void* memory = nullptr;
   const cudaError_t code = cudaMalloc(&memory, bytes);
   if (code == cudaSuccess) return memory;
-  (void)cudaGetLastError();  // an allocation that failed must not fail the next call
+  (void)cudaGetLastError();  // clear the error, so that the next call does not report it
   if (code != cudaErrorMemoryAllocation) return cuda_status(code, "cudaMalloc").error();
   std::size_t free = 0;
   std::size_t total = 0;

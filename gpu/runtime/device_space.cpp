@@ -20,8 +20,8 @@ core::Status checked(cudaError_t error, const char* what) {
   return core::Error{std::string("CUDA: ") + cudaGetErrorString(error), what, "", core::Exit::kMissing};
 }
 
-// Behind its end the device's own page protection starts somewhere, not at the byte: what a plug-in writes there is
-// found by compute-sanitizer, not here.
+// The device protects whole pages only, so a plug-in that writes just past the end of a block is not noticed here;
+// compute-sanitizer finds it.
 class DeviceBlock final : public core::MemoryBlock {
  public:
   DeviceBlock(void* data, std::size_t bytes) : data_(data), bytes_(bytes) {}

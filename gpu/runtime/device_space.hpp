@@ -8,10 +8,10 @@
 
 namespace broadside::gpu {
 
-// Error: no device, or built without CUDA.
+// An error if there is no device, or if this was built without CUDA.
 core::Result<std::unique_ptr<core::MemorySpace>> make_device_space();
 
-// Why there is none; empty when there is.
+// Why there is no device; empty if there is one.
 std::string device_absent();
 
 }  // namespace broadside::gpu

@@ -9,7 +9,7 @@
 
 namespace broadside::gpu {
 
-// So many T in memory of the host that the device writes, with an owner.
+// An array of kCount values in host memory that the device writes; this object owns it.
 template <typename T, std::size_t kCount>
 class Mapped {
  public:
@@ -19,7 +19,7 @@ class Mapped {
   ~Mapped() {
     if (memory_.host != nullptr) release_mapped_bytes(memory_);
   }
-  // Or clears what was allocated before.
+  // Allocates at the first call; clears the values at each.
   core::Status allocate() {
     if (memory_.host == nullptr) {
       auto memory = allocate_mapped_bytes(kCount * sizeof(T));

@@ -1,4 +1,4 @@
-// How a kernel with barriers over its whole grid fits this GPU, and its launch.
+// Finds how many blocks of a kernel with barriers over its whole grid this GPU can hold, and launches such a kernel.
 #pragma once
 
 #include "gpu/frame/frame_kernel.hpp"
@@ -14,7 +14,7 @@ inline core::Result<std::uint32_t> attribute(cudaDeviceAttr which) {
   return static_cast<std::uint32_t>(value);
 }
 
-// How many of a kernel's blocks are resident at once; `shape` has threads and shared memory.
+// Sets how many of a kernel's blocks are resident at once; `shape` must have threads and shared memory.
 inline core::Status fit(const void* kernel, LaunchShape& shape) {
   auto multiprocessors = attribute(cudaDevAttrMultiProcessorCount);
   if (!multiprocessors.ok()) return multiprocessors.error();
@@ -28,12 +28,12 @@ inline core::Status fit(const void* kernel, LaunchShape& shape) {
   return core::Done{};
 }
 
-// When a launch's blocks begin.
+// When the blocks of a launch begin.
 enum class LaunchBegin : std::uint8_t {
-  // When all of them are resident at once: CUDA's cooperative launch.
+  // Once all of them can be resident together: CUDA's cooperative launch.
   kTogether,
-  // While the launch before it in the stream ends, each as soon as there is room: dependent_launch.cuh says why all of
-  // them become resident.
+  // Each block as soon as there is room, while the launch before it in the stream ends. dependent_launch.cuh says why
+  // all of them become resident.
   kDependent,
 };
 

@@ -1,4 +1,4 @@
-// Launches of kernels without barriers, over so many items.
+// Launches kernels without barriers over a number of items.
 #pragma once
 
 #include <algorithm>

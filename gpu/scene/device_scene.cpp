@@ -24,19 +24,19 @@ BoxFacts facts_of(const core::Scene& scene) {
   return facts;
 }
 
-// What cells of near vertices must allow for, but for theta.
+// What cells of near vertices must allow for; theta is added for each shape.
 NearNeeds needs_of(const core::ShapeTable& table, const BoxFacts& facts) {
   NearNeeds needs;
   for (const core::Shape& shape : table.shapes)
     for (const core::Vec3& v : shape.octree.sorted_vertices)
       for (int axis = 0; axis < 3; ++axis) needs.extent_m = std::max(needs.extent_m, std::abs(v[axis]));
-  // A body may leave the domain; where it is this far out, trees are descended.
+  // A body may leave the domain; if it is farther out than this, trees are descended instead.
   needs.range_m = 2.0F * facts.coordinate_range_m + needs.extent_m;
   return needs;
 }
 
-// For each shape the largest theta under which its vertices touch any other's: the rounded mean of two edges grows with
-// either.
+// For each shape the largest theta of any pair that it is in. That is the pair with the coarsest shape, because theta
+// grows with the mean edges of both shapes, also after rounding.
 std::vector<float> thetas_of(const core::ShapeTable& table, const core::Parameters& parameters) {
   std::vector<float> thetas;
   if (table.shapes.empty()) return thetas;

@@ -1,4 +1,4 @@
-// What of a scene does not change during a run, on the device.
+// Device memory of those parts of a scene that do not change during a run.
 #pragma once
 
 #include <cstdint>
@@ -13,22 +13,23 @@
 namespace broadside::gpu {
 
 struct SceneNeeds {
-  float hash_cell_m = 0.0F;           // of the spatial hash, if that is the broad phase
-  std::uint32_t least_for_cells = 0;  // a shape of fewer bodies gets no cells of near vertices
+  float hash_cell_m = 0.0F;           // cell of the spatial hash, if that is the broad phase
+  std::uint32_t least_for_cells = 0;  // shapes that fewer bodies have get no cells of near vertices
 };
 
 class DeviceScene {
  public:
   core::Status load(const core::Scene& scene, const SceneNeeds& needs);
-  // Fills what of the view is fixed by the scene.
+  // Fills those parts of the view that the scene fixes.
   void fill(FrameView& view) const;
 
   [[nodiscard]] const core::Quat* orientation() const { return orientation_.data(); }
-  // Of the deepest vertex tree.
+  // The number of levels of the deepest vertex tree.
   [[nodiscard]] std::uint32_t tree_levels() const { return tree_levels_; }
-  // Whether a shape has cells of near vertices.
+  // Whether any shape has cells of near vertices.
   [[nodiscard]] bool has_cells() const { return has_cells_; }
-  // What the broad phase must know before the first frame: a body's box is its shape's, wherever it is.
+  // What the broad phase must know before the first frame. A body's box has the size of its shape's box, wherever the
+  // body is.
   [[nodiscard]] const BoxFacts& box_facts() const { return box_facts_; }
   [[nodiscard]] std::uint64_t shape_bytes() const;
   [[nodiscard]] std::uint64_t body_bytes() const;

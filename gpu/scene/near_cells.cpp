@@ -16,17 +16,17 @@ using core::Box;
 using core::Vec3;
 
 // In a heap of bunnies a search takes 4100, 2500, 2200 and 2000 instructions with cells of 1, 1/2, 1/3 and 1/4 theta
-// (13 300 with two trees); cells are 22, 166, 478 and 1309 thousand.
+// (13 300 with two trees); there are 22, 166, 478 and 1309 thousand cells then.
 constexpr double kCellsPerTheta = 2.0;
 constexpr std::size_t kMostCellsOfShape = 1U << 19U;
 constexpr std::size_t kMostCellsOfAll = 1U << 26U;
-// Above it more vertices lie in the overlap of two boxes than a descent of two trees looks at.
+// In shapes with more vertices, more of them lie in the overlap of two boxes than a descent of two trees looks at.
 constexpr std::size_t kMostVertices = 1U << 13U;
 constexpr std::uint32_t kLeastTop = 2;
-// Lists get long where theta is many edges.
+// Lists get long if theta is many times the length of an edge.
 constexpr float kMostEdgesInTheta = 4.0F;
 
-// Distances in double: their own rounding is far below what is allowed for.
+// Distances are computed in double, whose rounding is far below what the grid allows for.
 struct Range {
   double low;
   double high;
@@ -51,32 +51,33 @@ double farthest_m(const Cell& cell, Vec3 p) {
   return std::sqrt(sum);
 }
 
-// The grid of one shape, and how far roundings reach.
+// The grid of one shape, and how much rounding can change.
 struct Grid {
   NearCells header;
   double side_m = 0.0;
   double theta_m = 0.0;
-  // Of the rounded distance of two vertices, from the exact one: each of the six world coordinates is off by up to half
-  // a unit in the last place, 2^-24 of range_m, which makes 2 sqrt(3) 2^-24 range_m = 2.1e-7 range_m; the rest is
-  // relative, a few 2^-24 of a distance up to theta.
+  // How far the rounded distance of two vertices may be from the exact one. Each of the six world coordinates is off by
+  // up to half a unit in the last place, 2^-24 of range_m, which makes 2 sqrt(3) 2^-24 range_m = 2.1e-7 range_m. The
+  // rest is relative: a few 2^-24 of a distance up to theta.
   double distance_error_m = 0.0;
-  // Of the place at which a cell is looked up: up to one quantum, and 2^-24 of some coordinates of bodies.
+  // How far the place at which a cell is looked up may be off: up to one quantum, and 2^-24 of some coordinates of
+  // bodies.
   double place_error_m = 0.0;
 
-  // With what fills up the last bricks.
+  // The number of cells, with those that fill up the last bricks.
   [[nodiscard]] std::size_t cells() const {
     return (std::size_t{header.stride_z} + 128) * ((std::size_t{header.count_z} + 3) / 4);
   }
   [[nodiscard]] std::array<std::uint32_t, 3> counts() const { return {header.count_x, header.count_y, header.count_z}; }
 
-  // Calls visit(cell's index, cell, place in `vertices`) for every cell that a vertex is nearer to than theta, and some
-  // more.
+  // For each vertex, calls visit(cell's index, cell, place in `vertices`) for every cell nearer to it than theta, and
+  // for some more.
   template <typename Visit>
   void each_cell_near(std::span<const PackedVec3> vertices, const Visit& visit) const {
     const double reach = theta_m + 2.0 * distance_error_m + place_error_m;
     for (std::size_t v = 0; v < vertices.size(); ++v) {
       const Vec3 p = vertices[v].v;
-      if (!std::isfinite(p.x)) continue;  // it fills up the last leaf
+      if (!std::isfinite(p.x)) continue;  // only fills up the last leaf
       std::array<std::uint32_t, 3> first{};
       std::array<std::uint32_t, 3> last{};
       for (int k = 0; k < 3; ++k) {
@@ -102,10 +103,11 @@ struct Grid {
   }
 };
 
-// Quanta of the finest cell, as a power of two: as many as sums of a vertex' and an origin's, within 2^15, allow for.
+// How many quanta the finest cell has, as a power of two: as many as possible while the sum of a vertex's and an
+// origin's quanta stays within 2^15.
 std::uint32_t quanta_bits(const NearNeeds& needs) {
   std::uint32_t bits = 7;
-  // Cells and bodies on both sides of them reach over some six extents.
+  // Cells, with a body on either side of them, reach over some six extents.
   while (bits > 4 && 6.0 * needs.extent_m / needs.least_theta_m * kCellsPerTheta * (1U << bits) > 30000.0) --bits;
   return bits;
 }
@@ -124,7 +126,7 @@ Grid grid_around(const Box& box, const NearNeeds& needs) {
   grid.header.range_m = needs.range_m;
   // Rounded down, so that all steps together are no more than theta.
   grid.header.lower_step_m = std::nextafter(static_cast<float>(grid.theta_m / 254.0), 0.0F);
-  // One cell more on every side, so that those at the rim are empty.
+  // One more cell on every side, so that cells at the rim are empty.
   const double margin = grid.side_m + grid.theta_m + 2.0 * (grid.distance_error_m + grid.place_error_m);
   std::array<std::uint32_t, 3> count{};
   std::array<float, 3> low{};
@@ -143,7 +145,7 @@ Grid grid_around(const Box& box, const NearNeeds& needs) {
   return grid;
 }
 
-// Sums of a vertex' and an origin's quanta, wherever the bodies are, are below 2^15: see
+// Whether the sum of a vertex's and an origin's quanta is below 2^15 wherever the bodies are: see
 // stages/vertices/cell_search.cuh.
 bool are_quanta_few(const Grid& grid) {
   const std::uint64_t cells = std::ranges::max(grid.counts());
@@ -170,7 +172,7 @@ void append_cells(ShapeCells& cells, const ShapeTrees& trees, const NearNeeds& n
   const std::span vertices =
       std::span(trees.vertices).subspan(tree.vertex_begin, std::size_t{tree.node_count[0]} * kLeafVertices);
 
-  // Within this of some vertex wherever in the cell one is.
+  // For each cell, a distance within which every point of it has a vertex.
   std::vector<double> within(grid.cells(), grid.theta_m);
   grid.each_cell_near(vertices, [&](std::size_t k, const Cell& cell, std::size_t v) {
     within[k] = std::min(within[k], farthest_m(cell, vertices[v].v));
@@ -212,7 +214,7 @@ void append_cells(ShapeCells& cells, const ShapeTrees& trees, const NearNeeds& n
   each_entry([&](std::size_t k, std::size_t v, double) {
     const std::uint32_t place = filled[k]++;
     NearEntry& entry = cells.entries[header.first_entry + begin[k] + place / 4];
-    // The rest, until others come.
+    // Also fills the rest of the entry, until other vertices overwrite it.
     for (std::uint32_t rest = place % 4; rest < 4; ++rest) entry.vertex[rest] = static_cast<std::uint16_t>(v);
   });
   cells.headers.push_back(header);

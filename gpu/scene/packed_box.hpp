@@ -8,7 +8,7 @@
 
 namespace broadside::gpu {
 
-// The tags are free for the owner: body id, level of the grid.
+// The owner may use the tags for anything: a body's id, a level of the grid.
 struct alignas(16) PackedBox {
   core::Vec3 min;
   std::uint32_t low_tag = 0;

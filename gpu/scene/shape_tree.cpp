@@ -15,7 +15,7 @@ namespace {
 using core::Box;
 using core::Vec3;
 
-// Orders [begin, end) of `order` so that every aligned run of leaves, of 2, 4, 8 ... leaves, is one box of a kd-tree.
+// Sorts `order` so that every aligned run of 2, 4, 8 ... leaves is one box of a kd-tree.
 void split(std::span<std::uint32_t> order, std::span<const Vec3> vertices) {
   if (order.size() <= kLeafVertices) return;
   Box box = core::empty_box();
@@ -23,10 +23,10 @@ void split(std::span<std::uint32_t> order, std::span<const Vec3> vertices) {
   const Vec3 side = box.max - box.min;
   int axis = side.y > side.x ? 1 : 0;
   if (side.z > side[axis]) axis = 2;
-  // The lower half is the largest power of two of leaves below the whole.
+  // The lower half has the largest power of two of leaves that is less than all of them.
   std::size_t half = kLeafVertices;
   while (half * 2 < order.size()) half *= 2;
-  // Equal coordinates are told apart by their index, so that the order is one whatever the library.
+  // Vertices with equal coordinates are ordered by index, so that the order does not depend on the library.
   std::nth_element(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(half), order.end(),
                    [&](std::uint32_t p, std::uint32_t q) {
                      return vertices[p][axis] != vertices[q][axis] ? vertices[p][axis] < vertices[q][axis] : p < q;
@@ -66,7 +66,7 @@ void append_tree(ShapeTrees& trees, std::span<const Vec3> vertices, std::span<co
   header.leaf_offset = static_cast<std::uint32_t>(trees.nodes.size()) - below;
   for (std::uint32_t depth = 0;; ++depth) {
     header.top = depth;
-    header.root = node_word(depth, below);  // where this is the last
+    header.root = node_word(depth, below);  // holds if this level is the last
     header.node_begin[depth] = static_cast<std::uint32_t>(trees.nodes.size());
     header.node_count[depth] = static_cast<std::uint32_t>(level.size());
     for (const Box& box : level) trees.nodes.push_back(pack(box, node_word(depth, below++)));

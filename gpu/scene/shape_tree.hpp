@@ -1,4 +1,4 @@
-// A tree of tight boxes over one shape's vertices, built once on the host: what the proximity stage descends.
+// A tree of tight boxes over one shape's vertices. It is built once on the host; the proximity stage descends it.
 #pragma once
 
 #include <cstdint>
@@ -10,20 +10,21 @@
 
 namespace broadside::gpu {
 
-// 8 children against 8 are 64 tests, 2 a lane; 8 vertices against 8, in groups of 8 lanes, are 8 a lane.
+// Testing 8 children against 8 takes a warp 64 tests, 2 a lane; testing 8 vertices against 8 takes a group of 8 lanes
+// 64, 8 a lane.
 constexpr std::uint32_t kLeafVertices = 8;
 constexpr std::uint32_t kFanOut = 8;
-// 8 * 8^9 vertices, 17 GB of them. The 28 bits that name a block of eight are enough for twice as many.
+// Enough for 8 * 8^9 vertices, which take 17 GB. The 28 bits that name a block of eight suffice for twice as many.
 constexpr std::uint32_t kMaxTreeLevels = 10;
 
-// Node pairs that wait while two trees of so many levels are descended at once: a pair of nodes leaves at most 63 more
-// than it was, all of a lower level than the higher of the two.
+// The most node pairs that wait while two trees of this many levels are descended together: opening a pair of nodes
+// adds at most 63 pairs, all of a lower level than the higher of the two.
 constexpr std::uint32_t stack_entries_of(std::uint32_t levels) {
   return 64 * levels;
 }
 
-// What a node's box says of what is below it: the node's level, and which block of eight, of `nodes` or, of a leaf, of
-// `vertices`: a thread that has loaded a box knows where its children are.
+// The word that is stored with a node's box: the node's level, and which block of eight holds its children, in `nodes`
+// or, for a leaf, in `vertices`. So a thread that has loaded a box knows where the children are.
 BROADSIDE_HD constexpr std::uint32_t node_word(std::uint32_t level, std::uint32_t block) {
   return level << 28 | block;
 }
@@ -34,14 +35,14 @@ BROADSIDE_HD constexpr std::uint32_t block_of(std::uint32_t word) {
   return word & 0xFFFFFFFU;
 }
 
-// A search of two trees by several warps begins on the lowest level that has so few nodes, and is not that of the
-// leaves unless that is the root's. Of either tree it takes those that are near the other's root, and tries all pairs
-// of them.
+// A search of two trees by several warps begins on the lowest level that has at most this many nodes; that is a level
+// above the leaves, unless the root is a leaf. From each tree it takes the nodes that are near the other's root, and
+// tries all pairs of them.
 constexpr std::uint32_t kMostUpperNodes = 128;
 
 // Where one shape's tree lies in the arrays shared by all shapes. Level 0 holds the leaves; level `top` is the root,
 // one node. Children of node n are 8 n .. 8 n + 7 of the level below, leaf n holds vertices 8 n .. 8 n + 7. Every level
-// is filled up with empty boxes, the last leaf with vertices at infinity: both are near nothing.
+// is filled up with empty boxes, and the last leaf with vertices at infinity; neither is near anything.
 struct TreeHeader {
   std::uint32_t top = 0;
   std::uint32_t root = 0;         // its word
@@ -51,14 +52,14 @@ struct TreeHeader {
   std::uint32_t vertex_begin = 0;
   std::uint32_t upper_level = 0;
   std::uint32_t upper_count = 0;
-  std::uint32_t upper_begin = 0;  // of the nodes of that level, and behind them the root, in an array of their own
+  std::uint32_t upper_begin = 0;  // where these nodes begin in `upper`; the root follows them
   float mean_edge_m = 0.0F;
 };
 
 struct ShapeTrees {
   std::vector<TreeHeader> headers;   // one per shape
   std::vector<PackedBox> nodes;      // body coordinates; the low tag is the node's word
-  std::vector<PackedBox> upper;      // likewise: of each shape its upper nodes, then its root
+  std::vector<PackedBox> upper;      // likewise: for each shape its upper nodes, then its root
   std::vector<PackedVec3> vertices;  // body coordinates; w holds the bits of the index in the mesh
 };
 

@@ -21,7 +21,7 @@ __device__ inline bool is_static(const FrameView& f, std::uint32_t body) {
   return !(f.previous.position[body].w > 0.0F);
 }
 
-// w F of a body: gravity, then its springs in the scene's order.
+// w F of a body, its acceleration: gravity, then its springs in the scene's order.
 __device__ inline core::Vec3 acceleration(const FrameView& f, std::uint64_t body, const core::Kinematics& state,
                                           float inverse_mass) {
   core::Vec3 sum = f.gravity_m_s2;
@@ -31,7 +31,7 @@ __device__ inline core::Vec3 acceleration(const FrameView& f, std::uint64_t body
   return sum;
 }
 
-// A body when the frame begins.
+// A body's data when the frame begins.
 struct BodyBefore {
   PackedVec3 x;  // w = inverse mass
   PackedVec3 v;
@@ -44,7 +44,7 @@ struct BodyBefore {
   __device__ bool is_static() const { return !(x.w > 0.0F); }
 };
 
-// At detection: P(1) to P(3), P(5).
+// A body's state and box at detection: P(1) to P(3), P(5).
 struct BodyAtDetection {
   core::Kinematics state;
   core::Box box;
@@ -56,9 +56,10 @@ struct BodyAtDetection {
   }
 };
 
-// Not 0 if the frame before was aborted and the host does not know yet. This frame then must write nothing: it would
-// overwrite the state to repeat from. All threads read the same, as the counters are cleared only if the frame was not
-// aborted. A word and not a bool, so that threads wait for the load where they use it.
+// Not 0 if the frame before was aborted and the host does not know yet. Then this frame must write nothing, because it
+// would overwrite the state from which that frame is repeated. All threads read the same value, since the counters are
+// cleared only if that frame was not aborted. It is a word and not a bool, so that threads wait for the load only where
+// they use it.
 __device__ inline std::uint32_t is_behind_aborted(const FrameView& f) {
   return load_fresh_if(f.is_behind_unseen, &f.counters->is_aborted);
 }
@@ -75,13 +76,14 @@ __device__ inline void start_body(const FrameView& f, std::uint32_t body, const 
   f.degree[body] = 0;
 }
 
-// The body with which a thread begins. The last warp of each block has the first bodies, from the last block on: the
-// first block waits longest for the kernel's parameters, and a block's first warps have other work meanwhile.
+// The body with which a thread begins. The first bodies go to the last warp of each block, beginning with the last
+// block, because the first block waits longest for the kernel's parameters, and a block's first warps have other work
+// at that time.
 __device__ inline std::uint64_t first_body(const GridPlaces& grid) {
   return grid.size() - 1 - grid.spread_rank();
 }
 
-// P(1) to P(3), P(5). Returns false, and has done nothing, behind an aborted frame.
+// P(1) to P(3), P(5). After an aborted frame it does nothing and returns false.
 __device__ inline bool integrate(const GridPlaces& grid, const GridFrameView& f) {
   const std::uint32_t is_aborted = is_behind_aborted(f);
   for (std::uint64_t i = first_body(grid); __any_sync(kFullWarp, i < f.body_count); i += grid.size()) {
@@ -101,7 +103,7 @@ __device__ inline bool integrate(const GridPlaces& grid, const GridFrameView& f)
   return true;
 }
 
-// Which faces of the domain a body is behind: bit k for face k.
+// The faces of the domain that a body touches: bit k for face k.
 __device__ inline unsigned faces_before(const FrameView& f, const core::Box& local, core::Vec3 x) {
   const core::Box box = core::translated(local, x);
   unsigned faces = 0;
@@ -111,9 +113,9 @@ __device__ inline unsigned faces_before(const FrameView& f, const core::Box& loc
   return faces;
 }
 
-// A moving body at the six half-spaces of the domain, in their order, then P(23); the state that this leaves. By whole
-// warps, with lanes that have no body to move: each lane finds its own next face, so that lanes whose faces differ are
-// resolved together. `material`: called for the body's.
+// Resolves a moving body's contacts with the six faces of the domain, in order, then applies P(23). Returns the state
+// after that. Called by whole warps, also by lanes that have no body to move. Each lane finds its own next face, so
+// that lanes with different faces are resolved together. `material` is called for the body's material.
 template <typename Count, typename Material>
 __device__ core::Kinematics settled_at_faces(const FrameView& f, std::uint32_t body, bool moves, const core::Box& local,
                                              float inverse_mass, const Material& material, core::Kinematics state,

@@ -1,5 +1,5 @@
-// The digest of a frame, by a kernel of its own behind the frame's. The frame's kernel has no registers to spare for
-// it.
+// The digest of a frame, computed by a kernel of its own after the frame's, because the frame's kernel has no registers
+// to spare.
 #pragma once
 
 #include "core/method/frame_digest.hpp"
@@ -9,7 +9,7 @@
 
 namespace broadside::gpu {
 
-// `block_sum`: in the block's shared memory. The last block that adds its sum writes the digest for the host.
+// `block_sum` lies in the block's shared memory. The last block to add its sum writes the digest for the host.
 __device__ inline void run_digest(const DigestView& view, unsigned long long* block_sum) {
   Counters& counters = *view.counters;
   if (counters.is_aborted != 0) return;
@@ -21,7 +21,7 @@ __device__ inline void run_digest(const DigestView& view, unsigned long long* bl
     sum += core::body_digest(static_cast<std::uint32_t>(i), view.state.position[i].v, view.orientation[i],
                              view.state.velocity[i].v, core::Vec3{});
   const std::uint64_t confirmed = view.is_confirmed_by_level0 ? counters.pairs : counters.confirmed;
-  // If all confirmed pairs touch, they are those of the contacts, and need not be loaded.
+  // If all confirmed pairs touch, they are the pairs of the contacts and need not be loaded.
   const bool all_touch = counters.touching == confirmed;
   if (!all_touch)
     for (std::uint64_t k = grid.rank(); k < confirmed; k += grid.size())

@@ -1,4 +1,4 @@
-// What a frame tells the host at its end.
+// What a frame reports to the host at its end.
 #pragma once
 
 #include "gpu/frame/frame_view.hpp"
@@ -6,14 +6,14 @@
 
 namespace broadside::gpu {
 
-// By one thread. Of an aborted frame the counters say what it needed.
+// Called by one thread. If the frame was aborted, the counters say how much room it needed.
 __device__ inline void tell_host(const FrameView& f, Counters counters, bool is_aborted) {
   counters.is_aborted = is_aborted ? 1 : 0;
   *f.counters = counters;
   f.outcome->counters = counters;
 }
 
-// Whether all contacts with faces were kept: known when the last stage has ended.
+// Whether all contacts with faces were stored. Known only after the last stage.
 __device__ inline bool has_room_for_faces(const FrameView& f, const Counters& counters) {
   return counters.faces <= f.face_contacts.capacity;
 }

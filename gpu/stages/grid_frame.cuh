@@ -1,5 +1,5 @@
 // A grid frame from top to bottom, as the threads of one launch run it: METHOD sections 1 to 6. Counts are read after
-// barriers, so all threads decide alike.
+// barriers, so all threads take the same branches.
 #pragma once
 
 #include "gpu/frame/frame_kernel.hpp"
@@ -15,17 +15,17 @@
 
 namespace broadside::gpu {
 
-// Up to this many confirmed pairs, of bodies that fit its shared memory, are resolved by one block: its threads see
-// each other's writes after some 30 ns, those of the grid after some 700.
+// One block resolves up to this many confirmed pairs, if their bodies fit its shared memory: threads of a block see
+// each other's writes after some 30 ns, threads of the grid after some 700.
 constexpr std::uint64_t kOneBlockPairs = 8192;
 
-// What a block has in shared memory beside `shared`.
+// What a block has in shared memory in addition to `shared`.
 struct GridScratch {
   ProximityScratch proximity;
   Counters counters;
 };
 
-// By all threads, when there is no room for so many confirmed pairs, or for what the counters say.
+// Called by all threads if there is not enough room for the confirmed pairs, or for what the counters say.
 __device__ inline void abort_grid(const FrameView& f, std::uint64_t confirmed) {
   if (blockIdx.x != 0 || threadIdx.x != 0) return;
   Counters counters = *f.counters;
@@ -33,8 +33,8 @@ __device__ inline void abort_grid(const FrameView& f, std::uint64_t confirmed) {
   tell_host(f, counters, true);
 }
 
-// Contacts and faces, by all threads of a team. kHasThreadPerBody: the team has; otherwise a contact that is resolved
-// hands its bodies on to the next one.
+// Resolves contacts and faces, by all threads of a team. kHasThreadPerBody: the team has a thread for each body;
+// otherwise a contact that is resolved hands its bodies on to their next contacts.
 template <bool kHasThreadPerBody, typename Team, typename Live>
 __device__ void resolve_grid(const Team& team, const FrameView& f, const NarrowPairs& pairs, const Live& live) {
   resolve_by_team(team, f, pairs, [&](std::uint64_t count) {
@@ -56,7 +56,7 @@ __device__ void resolve_grid(const Team& team, const FrameView& f, const NarrowP
   if (team.rank() == 0) tell_host(f, *f.counters, !has_room_for_faces(f, *f.counters));
 }
 
-// The same by one block, if that has room. Returns false, and has done nothing, if it has not; by all threads of the
+// The same by one block, if that has room; otherwise it does nothing and returns false. Called by all threads of the
 // grid.
 __device__ inline bool resolve_by_one_block(const FrameView& f, const NarrowPairs& pairs, Counters& counters,
                                             unsigned char* shared) {
@@ -72,9 +72,9 @@ __device__ inline bool resolve_by_one_block(const FrameView& f, const NarrowPair
   return true;
 }
 
-// The same by the first blocks of the grid: no more than there is work for, as fewer wait for each other sooner. Up to
-// half of the grid, a body a warp is work enough: a chain of contacts waits longer in warps where other threads resolve
-// theirs.
+// The same by the first blocks of the grid. There are no more of them than there is work for, because a barrier of
+// fewer blocks is faster. But up to half of the grid, each warp gets only one body: a chain of contacts takes longer if
+// other threads of its warps resolve contacts of their own.
 template <bool kHasThreadPerBody>
 __device__ void resolve_by_blocks(const GridFrameView& f, const NarrowPairs& pairs) {
   const std::uint64_t work = max(pairs.count, std::uint64_t{f.body_count});
@@ -85,8 +85,8 @@ __device__ void resolve_by_blocks(const GridFrameView& f, const NarrowPairs& pai
   resolve_grid<kHasThreadPerBody>(team, f, pairs, GridLive{f.live});
 }
 
-// `shared`: what LaunchShape says, a block's own. kHasThreadPerBody: the grid has. Always inlined: a call would take
-// the view through memory.
+// `shared`: the block's shared memory, as large as LaunchShape says. kHasThreadPerBody: the grid has a thread for each
+// body. Always inlined, because a call would pass the view through memory.
 template <bool kHasThreadPerBody>
 __device__ __forceinline__ void run_grid_frame(const GridFrameView& f, GridScratch& scratch, unsigned char* shared) {
   const GridTeam grid(f.barrier);
@@ -108,7 +108,7 @@ __device__ __forceinline__ void run_grid_frame(const GridFrameView& f, GridScrat
   mark_end(grid, f.outcome, core::Stage::kBroad);
   if (f.counters->pairs > f.pairs.capacity) return abort_grid(f, 0);
 
-  // From level 0 alone, what was found is what is confirmed.
+  // With level 0 alone, the pairs that were found are the confirmed ones.
   const bool is_confirmed_by_level0 = starts_at_level0 && f.levels == core::Levels::kFlat;
   if (starts_at_level0 && !is_confirmed_by_level0) {
     Uncounted work;

@@ -10,14 +10,14 @@
 
 namespace broadside::gpu {
 
-// One addition to the tally takes places in several lists, and every block knows all counts after the barrier.
+// One addition to the tally reserves places in several lists, and after the barrier every block knows all counts.
 struct SmallCounts {
-  // Teams ask no more once so many have asked; those that ask at the same moment still fit the bits.
+  // Once this many teams have asked, no more do; the bits have room for those that ask at the same moment.
   static constexpr std::uint32_t kMostLeftovers = 1U << 13;
 
   std::uint32_t pairs = 0;
   std::uint32_t judged = 0;  // pairs whose levels were tested: the confirmed, if levels come first; else the rejected
-  std::uint32_t leftovers = 0;  // how often a team asked for a place for leftover work
+  std::uint32_t leftovers = 0;  // how often teams asked for a place for leftover work
 
   // Pairs that the levels below 0 keep; 0 for flat levels.
   __device__ std::uint32_t confirmed(const SmallFrameView& f) const {
@@ -27,7 +27,7 @@ struct SmallCounts {
   __device__ unsigned long long packed() const {
     return pairs | std::uint64_t{judged} << kPairBits | std::uint64_t{leftovers} << 2 * kPairBits;
   }
-  // Of the word, or of its tally alone.
+  // From the barrier word, or from its tally alone.
   __device__ static SmallCounts unpacked(unsigned long long word) {
     const unsigned long long tally = word & GridWord::kTally;
     return {static_cast<std::uint32_t>(tally) & kMostPairs, static_cast<std::uint32_t>(tally >> kPairBits) & kMostPairs,

@@ -14,7 +14,7 @@
 
 namespace broadside::gpu {
 
-// What a block has in shared memory beside `shared`.
+// What a block has in shared memory in addition to `shared`.
 struct SmallScratch {
   ProximityScratch proximity;
   BlockCopy octree_copy;
@@ -24,7 +24,7 @@ struct SmallScratch {
   std::uint32_t listed;
 };
 
-// By one thread, when no other adds to the tally any more. The tally is cleared for the next frame.
+// Called by one thread once no other thread adds to the tally. Clears the tally for the next frame.
 __device__ inline void report_small(const SmallFrameView& f, const Counters& counters, const SmallCounts& counts,
                                     bool is_aborted) {
   *f.given_out = 0;
@@ -32,7 +32,7 @@ __device__ inline void report_small(const SmallFrameView& f, const Counters& cou
   if (const unsigned long long tally = counts.packed(); tally != 0) atomicAdd(f.barrier, 0ULL - tally);
 }
 
-// Pairs that were counted in the tally, as counters. The counters in memory are clear until the frame is reported.
+// Counters with the pairs that were counted in the tally. The counters in memory stay zero until the frame is reported.
 __device__ inline Counters counters_of(const SmallFrameView& f, const SmallCounts& counts) {
   Counters counters;
   counters.pairs = counts.pairs;
@@ -40,8 +40,8 @@ __device__ inline Counters counters_of(const SmallFrameView& f, const SmallCount
   return counters;
 }
 
-// By all threads, when there is no room for so many pairs, or confirmed pairs. The grid waits first: a block that read
-// a cleared tally would not abort, and would wait for the others for ever.
+// Called by all threads if there is not enough room for the pairs or the confirmed pairs. The grid synchronizes first:
+// a block that read the tally after it was cleared would not abort, and would wait for the others forever.
 __device__ inline void abort_small(const GridTeam& grid, const SmallFrameView& f, const SmallCounts& counts,
                                    std::uint64_t confirmed) {
   grid.sync();
@@ -51,7 +51,7 @@ __device__ inline void abort_small(const GridTeam& grid, const SmallFrameView& f
   report_small(f, counters, counts, true);
 }
 
-// Contacts and faces, by all threads of one block.
+// Resolves contacts and faces, by all threads of one block.
 __device__ inline void resolve_small(const SmallFrameView& f, const NarrowPairs& pairs, const SmallCounts& counts,
                                      SmallScratch& scratch, unsigned char* shared) {
   if (BlockRoom::fits(f, pairs.count)) {
@@ -72,11 +72,11 @@ __device__ inline void resolve_small(const SmallFrameView& f, const NarrowPairs&
   report_small(f, counters, counts, !has_room_for_faces(f, counters));
 }
 
-// `shared`: what LaunchShape says, a block's own, and BlockShapes behind it. Always inlined: a call would take the view
-// through memory.
+// `shared`: the block's shared memory, as large as LaunchShape says, with BlockShapes at its end. Always inlined,
+// because a call would pass the view through memory.
 __device__ __forceinline__ void run_small_frame(const SmallFrameView& f, SmallScratch& scratch, unsigned char* shared) {
   const ShapesInBlock shapes(f, shared, scratch.octree_copy, scratch.upper_copy);
-  // Until the frame before has ended, nothing is read that it writes.
+  // Up to wait_for_launch_before() nothing is read that the frame before writes.
   shapes.begin(f);
   const RingItem first(GridPlaces{}, f);
   wait_for_launch_before();
@@ -91,8 +91,8 @@ __device__ __forceinline__ void run_small_frame(const SmallFrameView& f, SmallSc
   shapes.end_upper();
   if (counts.pairs > f.pairs.capacity) return abort_small(grid, f, counts, 0);
 
-  // Where levels are left for the vertex stage, the confirmed pairs are among all that were found; with flat levels
-  // they are these.
+  // If levels are left for the vertex stage, the confirmed pairs are not known yet, so all found pairs are taken; with
+  // flat levels these are the confirmed ones.
   const bool has_levels_left = are_levels_left(f);
   const std::uint64_t confirmed =
       f.levels == core::Levels::kFlat || has_levels_left ? counts.pairs : counts.confirmed(f);

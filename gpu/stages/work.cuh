@@ -1,4 +1,4 @@
-// The work of a frame, counted after it: its searches run again over what it left on the device.
+// Counts the work of a frame after it: its searches run again over what it left on the device.
 #pragma once
 
 #include "gpu/stages/broad/broad_stage.cuh"
@@ -15,7 +15,8 @@ __device__ inline void add_of_warp(unsigned long long* sum, unsigned long long o
   if (lane() == 0 && own != 0) atomicAdd(sum, own);
 }
 
-// Boxes in the order of their entries: the counts do not depend on which warp takes which box, as it does in bulk_find.
+// Takes boxes in the order of their entries, so that the counts do not depend on which warp takes which box. (In
+// bulk_find warps take boxes as they become free.)
 __device__ inline Counted count_bulk_work(const GridPlaces& grid, const BroadWorkView& view, BulkNotes& notes) {
   const volatile std::uint32_t* known = view.bulk.levels;
   const LevelMarks marks{known[0], known[1]};
@@ -59,8 +60,8 @@ __device__ inline void count_broad_work(const BroadWorkView& view, BulkNotes& ro
   add_of_warp(&view.work->broad_nodes, work.node_count);
 }
 
-// Descends hits of a first level one at a time, where a frame may descend several at once: how many depends on the GPU,
-// and counts must not.
+// Descends hits of a first level one at a time. A frame may descend several at once, but how many depends on the GPU,
+// and counts must not depend on it.
 __device__ inline void count_level_work(const LevelWorkView& view) {
   const GridPlaces grid;
   Counted work;

@@ -1,4 +1,5 @@
-// What the stages tell of their work: nothing at no cost in a frame, and sums where it is counted.
+// How the stages report their work. In a frame the calls do nothing and cost nothing; where work is counted, they add
+// it up.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +13,7 @@ struct Uncounted {
   __device__ void node() {}
 };
 
-// One thread's share.
+// The counts of one thread.
 struct Counted {
   unsigned long long test_count = 0;
   unsigned long long node_count = 0;

@@ -1,4 +1,4 @@
-// Counts the work of frames where somebody asked: figures that are equal on every machine.
+// Counts the work of frames if ask() was called. The counts are the same on every machine.
 #pragma once
 
 #include <vector>
@@ -14,15 +14,15 @@ class WorkCounter {
   void ask() { is_asked_ = true; }
   [[nodiscard]] bool is_asked() const { return is_asked_; }
 
-  // At load, before the device is waited for: nothing was done yet.
+  // Sets the counts to zero. Call it at load, before waiting for the device.
   core::Status reset();
 
-  // After a frame or a search that was not aborted, before the next. They do nothing before ask(), and wait for the
-  // device.
+  // Call these after a frame or a search that was not aborted, before the next one. They wait for the device, and do
+  // nothing unless ask() was called.
   core::Status count_broad(const BroadWorkView& view, std::uint32_t multiprocessors, StreamHandle stream);
   core::Status count_levels(const FrameView& frame, Start start, std::uint32_t multiprocessors, StreamHandle stream);
 
-  // Behind the others, what was counted. Waits.
+  // Appends what was counted. Waits.
   void tell(std::vector<core::Counter>& counters) const;
 
  private:
@@ -30,8 +30,8 @@ class WorkCounter {
   Start start_ = Start::kNone;
   bool has_broad_ = false;
   bool has_levels_ = false;
-  DeviceBuffer<Work> work_;          // since load
-  DeviceBuffer<Counters> counters_;  // of a frame, to be written to
+  DeviceBuffer<Work> work_;          // sums since load
+  DeviceBuffer<Counters> counters_;  // a copy of a frame's counters, to write to
 };
 
 }  // namespace broadside::gpu

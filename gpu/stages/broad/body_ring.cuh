@@ -9,9 +9,10 @@
 
 namespace broadside::gpu {
 
-// Bodies on a ring: body i is paired with those 1 to n / 2 places on, so that every pair comes once without a root or a
-// triangle, and every body has as much to do as the next. An item is one body and `share` places on from it, a lane
-// each. Divisor: FloatDivisor where there are fewer items than it can divide, or IntegerDivisor.
+// Bodies lie on a ring, and body i is paired with those 1 to n / 2 places after it. So every pair comes once, without a
+// square root as pairs in a triangle would need, and every body has as many pairs as the next. An item is one body with
+// `share` of the places after it, a lane each. Divisor: FloatDivisor if items are few enough for it, else
+// IntegerDivisor.
 template <typename Divisor>
 class BodyRing {
  public:
@@ -19,17 +20,17 @@ class BodyRing {
 
   struct RingPair {
     std::uint32_t i = 0;
-    std::uint32_t j = 0;  // i where there is none
+    std::uint32_t j = 0;  // i if there is no pair
     bool exists = false;
   };
 
-  // `shares` divides by ring_shares(bodies).
+  // `shares` divides by ring_shares(bodies, share).
   __device__ BodyRing(std::uint32_t bodies, std::uint32_t share, const Divisor& shares)
       : bodies_(bodies), half_(bodies / 2), share_(share), shares_(shares) {}
 
   __device__ Item items() const { return Item{bodies_} * shares_.by(); }
 
-  // Of this lane, in an item that exists.
+  // This lane's pair in an item, which must exist.
   __device__ RingPair pair_of(Item item) const {
     const std::uint32_t i = shares_.quotient(item);
     return pair_of(i, static_cast<std::uint32_t>(item - Item{i} * shares_.by()));
@@ -38,7 +39,8 @@ class BodyRing {
  private:
   __device__ RingPair pair_of(std::uint32_t i, std::uint32_t part) const {
     const std::uint32_t on = part * share_ + lane() + 1;
-    // Two bodies that face each other on an even ring are one pair.
+    // If the number of bodies is even, two that are opposite on the ring would meet twice: the lower one takes the
+    // pair.
     const bool exists = lane() < share_ && on <= half_ && (on * 2 != bodies_ || i < half_);
     if (!exists) return {i, i, false};
     return {i, i < bodies_ - on ? i + on : i - (bodies_ - on), true};

@@ -1,4 +1,4 @@
-// The broad phase of a frame, whichever it is: boxes in, candidate pairs out.
+// The broad phase of a frame, of any kind: boxes in, candidate pairs out.
 #pragma once
 
 #include "gpu/broad/broad_view.hpp"
@@ -11,19 +11,19 @@
 
 namespace broadside::gpu {
 
-// A box's part in what must be counted before anything is placed; a barrier of the team must follow before
-// find_candidates.
+// Counts a box into its cells, which must be done for all boxes before any is placed: a barrier of the team must follow
+// before find_candidates.
 __device__ inline void count_box(const BroadView& b, std::uint64_t body, const core::Box& box) {
   if (b.start == Start::kGrid) grid_count(b.grid, body, box);
   if (b.start == Start::kOctree) octree_count(b.octree, body, box);
 }
 
-// Returns false when the spatial hash has no room for its entries; the counters say how much it needs. Marks the ends
-// of placing and scattering in `outcome`, unless that is null.
+// Returns false if the spatial hash has no room for its entries; then the counters say how much it needs. Marks the
+// ends of placing and scattering in `outcome`, unless that is null.
 template <typename Team>
 __device__ bool find_candidates(const Team& team, const BroadView& b, const PackedBox* boxes, std::uint32_t count,
                                 AppendView<core::Pair> out, Counters* counters, PairQueue& room, Outcome* outcome) {
-  // Steps that a start does not have end where the one before did.
+  // A step that a start does not have ends when the step before it does.
   const auto mark = [&](FindStep ended) {
     if (outcome != nullptr) mark_end(team, outcome, ended);
   };

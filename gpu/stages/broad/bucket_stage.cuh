@@ -1,4 +1,4 @@
-// Ranges of entries for buckets: a counting sort whose buckets lie in no order.
+// Gives buckets their ranges of entries: a counting sort in which the chunks of buckets lie in no order.
 #pragma once
 
 #include "gpu/broad/broad_view.hpp"
@@ -6,14 +6,14 @@
 
 namespace broadside::gpu {
 
-// Where the range of a bucket starts in `begin`: a chunk of buckets has one word more.
+// The place in `begin` of the word that says where a bucket's range starts: each chunk of buckets has one more word.
 __device__ inline std::uint32_t bucket_place(std::uint32_t bucket) {
   return bucket + bucket / kBucketChunk;
 }
 
-// Gives every bucket its range of entries, a warp some chunks, and clears the counts for the next frame. Chunks come in
-// whatever order warps are in; buckets of a chunk follow each other. Several chunks share one atomic: all of them go to
-// one word, which takes some 2 ns each.
+// Gives every bucket its range of entries and clears the counts for the next frame. A warp takes several chunks. Chunks
+// lie in the order in which warps come; buckets of a chunk follow each other. Several chunks share one atomic, because
+// all atomics go to one word, which takes some 2 ns for each.
 template <typename Team>
 __device__ void place_buckets(const Team& team, std::uint32_t bucket_mask, std::uint32_t* count, std::uint32_t* begin,
                               unsigned long long* cursor) {

@@ -1,7 +1,7 @@
 // The fast exact broad phase: a loose octree of unbounded depth, kept as a hash of its occupied cells. A body is in the
-// cell of its box's lower corner on the lowest level whose cells are as large as the box, so a cell of size c holds
-// boxes that reach at most c past it; cells of a level halve those of the level above. Cells that follow each other in
-// x are neighboring buckets, so that a row of cells is one run of entries.
+// cell that has its box's lower corner, on the finest level whose cells are at least as large as the box. So boxes of a
+// cell of size c reach at most c past it. Cells of each level are half as large as those of the level before. Cells
+// that follow each other in x are neighboring buckets, so that a row of cells is one run of entries.
 #pragma once
 
 #include "gpu/broad/broad_view.hpp"
@@ -12,9 +12,9 @@
 
 namespace broadside::gpu {
 
-// Level 20 has cells a millionth of the largest box; smaller boxes share it.
+// Cells of level 20 are a millionth of the largest box; smaller boxes are on that level too.
 constexpr int kGridLevels = 21;
-// Cells of a row that are sure to be neighboring buckets: aligned runs of 32.
+// Aligned runs of 32 cells of a row are sure to be neighboring buckets.
 constexpr std::uint32_t kRowBits = 5;
 static_assert((1U << kRowBits) <= kBucketChunk, "a row's buckets lie in one chunk");
 
@@ -26,13 +26,13 @@ struct CellCorner {
   __device__ bool operator==(const CellCorner& o) const { return x == o.x && y == o.y && z == o.z; }
 };
 
-// Monotone, also where it saturates: a cell far outside holds whatever lies beyond it.
+// Monotone, also where it saturates: the last cell holds everything that lies beyond it.
 __device__ inline int cell_index(float v, float cells_per_m) {
   return floor_to_int(v * cells_per_m);
 }
 
-// Cells of the grid further out are one with the last, so that a row of them is never longer than what rounding adds: a
-// box is in a cell at least 2^-18 of its coordinates, so only what has left the world comes here.
+// All cells of the grid beyond this are one cell, so that a row of cells is never longer than what rounding adds. A box
+// is in a cell of at least 2^-18 of its coordinates, so only boxes that have left the world come here.
 constexpr float kFarthestCell = 0x1p20F;
 __device__ inline int near_cell_index(float v, float cells_per_m) {
   return floor_to_int(fminf(fmaxf(v * cells_per_m, -kFarthestCell), kFarthestCell));
@@ -42,7 +42,7 @@ __device__ inline CellCorner cell_of(core::Vec3 v, float cells_per_m) {
   return {cell_index(v.x, cells_per_m), cell_index(v.y, cells_per_m), cell_index(v.z, cells_per_m)};
 }
 
-// v times 2^exponent, where both are normal numbers.
+// v times 2^exponent; v and the result must be normal numbers.
 __device__ inline float scaled(float v, int exponent) {
   return __uint_as_float(__float_as_uint(v) + (static_cast<std::uint32_t>(exponent) << 23));
 }
@@ -60,8 +60,8 @@ __device__ inline float largest_magnitude(core::Vec3 v) {
   return fmaxf(fabsf(v.x), fmaxf(fabsf(v.y), fabsf(v.z)));
 }
 
-// The finest level whose cells are at least as large as the box, and not so fine that a cell is lost in the rounding of
-// the coordinates (2^-18 of them is 32 units in the last place).
+// The finest level whose cells are at least as large as the box, and so large that rounding of the coordinates does not
+// matter: at least 2^-18 of them, which is 32 units in the last place.
 __device__ inline int grid_level(const GridView& g, const core::Box& box) {
   const core::Vec3 side = box.max - box.min;
   const float far = fmaxf(largest_magnitude(box.min), largest_magnitude(box.max)) * 0x1p-18F;
@@ -71,7 +71,7 @@ __device__ inline int grid_level(const GridView& g, const core::Box& box) {
   return level;
 }
 
-// The bits of a 16-bit number, two apart.
+// Spreads the bits of a 16-bit number: bit k goes to bit 2 k.
 __device__ inline std::uint32_t every_second_bit(std::uint32_t v) {
   v = (v | v << 8) & 0x00FF00FFU;
   v = (v | v << 4) & 0x0F0F0F0FU;
@@ -79,8 +79,9 @@ __device__ inline std::uint32_t every_second_bit(std::uint32_t v) {
   return (v | v << 1) & 0x55555555U;
 }
 
-// Rows of 32 cells, rows near each other in y and z near each other, then slabs in x: where the table has a bucket for
-// every cell of the world, that is all. What is above these bits, and the level, scatters whole blocks over the table.
+// The lowest bits are a row of 32 cells, then rows that are neighbors in y and z, then slabs in x. If the table has a
+// bucket for every cell of the world, that is all. The higher bits of the cell's numbers, and the level, are hashed,
+// and scatter whole blocks over the table.
 __device__ inline std::uint32_t bucket_of(const GridView& g, CellCorner c, int level) {
   const auto offset = [level](int first) { return static_cast<std::uint32_t>(first) << level; };
   const std::uint32_t x = static_cast<std::uint32_t>(c.x) - offset(g.first_cell[0]);
@@ -97,8 +98,8 @@ __device__ inline std::uint32_t bucket_of(const GridView& g, CellCorner c, int l
   return (near ^ (far ^ far >> 16) << kRowBits) & g.bucket_mask;
 }
 
-// Counts this box into its bucket. The place within the bucket is whatever the order of the threads makes it: nothing
-// that follows depends on it.
+// Counts this box into its bucket. The place within the bucket depends on the order of the threads, but no result
+// depends on it.
 __device__ inline void grid_count(const GridView& g, std::uint64_t body, const core::Box& box) {
   const int level = grid_level(g, box);
   const std::uint32_t bucket = bucket_of(g, grid_cell(g, box.min, level), level);
@@ -110,9 +111,9 @@ __device__ inline void grid_count(const GridView& g, std::uint64_t body, const c
 // cells of a level that are at most three apart on every axis, so that 7 bits tell which cell it is.
 constexpr std::uint32_t kStaticTag = 1U << 31;
 constexpr std::uint32_t kCellTag = (1U << 7) - 1U;
-constexpr std::uint32_t kRunTag = ((1U << 26) - 1U) & ~((1U << kRowBits) - 1U);  // all but the place within a run
+constexpr std::uint32_t kRunTag = ((1U << 26) - 1U) & ~((1U << kRowBits) - 1U);  // all but the place in a run
 
-// x counts from where the table's runs of cells begin.
+// x is counted from the first cell of the table, where its runs of cells begin.
 __device__ inline std::uint32_t cell_tag(const GridView& g, CellCorner c, int level) {
   return ((static_cast<std::uint32_t>(c.x) - (static_cast<std::uint32_t>(g.first_cell[0]) << level)) & kCellTag) |
          (static_cast<std::uint32_t>(c.y) & kCellTag) << 7 | (static_cast<std::uint32_t>(c.z) & kCellTag) << 14 |
@@ -135,8 +136,8 @@ __device__ void grid_scatter(const Team& team, const GridView& g, const PackedBo
 }
 
 // Cells of one level in which the partners of a box may be. A box b of that level overlaps q only if its lower corner
-// is between q.min - c and q.max; a thousandth of a cell and the 2^-20 of the coordinate cover every rounding on the
-// way there (at most a few units in the last place, 2^-23 of a coordinate that is at most 2^18 cells).
+// is between q.min - c and q.max; a thousandth of a cell and 2^-20 of the coordinate cover all rounding in between (at
+// most a few units in the last place, 2^-23 of a coordinate that is at most 2^18 cells).
 struct CellRange {
   CellCorner low;
   CellCorner high;
@@ -151,11 +152,12 @@ __device__ inline CellRange partner_cells(const GridView& g, const PackedBox& q,
 struct EntryRun {
   std::uint32_t begin = 0;
   std::uint32_t end = 0;
-  std::uint32_t tag = 0;  // of its cells, by kRunTag
+  std::uint32_t tag = 0;  // what its entries' tags must be under kRunTag
 };
 
-// The rows of cells in which a box looks for partners on one level. Two boxes of the same level would find each other
-// twice: the one in the lexicographically lower cell (z, y, x) finds, in one cell the one of the lower id.
+// The rows of cells in which a box looks for partners on one level. Two boxes of one level would find each other twice,
+// so only one of them looks: the one in the lexicographically lower cell (z, y, x) or, in one cell, the one with the
+// lower id.
 class RowSearch {
  public:
   __device__ RowSearch(const GridView& g, const PackedBox& q, int own_level, int level)
@@ -164,7 +166,7 @@ class RowSearch {
     rows_ = rows_in_y_ * (static_cast<std::uint32_t>(range_.high.z - range_.low.z) + 1);
     if (is_own_level_) {
       own_ = grid_cell(g, q.min, level);
-      // Rows before the own one find it.
+      // Boxes of the rows before the own row find this box.
       first_ = static_cast<std::uint32_t>(own_.z - range_.low.z) * rows_in_y_ +
                static_cast<std::uint32_t>(own_.y - range_.low.y);
       rows_ -= first_;
@@ -173,7 +175,7 @@ class RowSearch {
 
   __device__ std::uint32_t rows() const { return rows_; }
 
-  // Of the k-th row, the run that starts at its x-th cell; x moves on behind the run, which ends where buckets no
+  // Gives the run of the k-th row that starts at its x-th cell, and moves x past the run, which ends where buckets no
   // longer follow each other. Returns whether the row has more.
   __device__ bool next_run(const GridView& g, std::uint32_t k, std::uint32_t& x, EntryRun& run) const {
     CellCorner c{(is_own_level_ && k == 0 ? own_.x : range_.low.x) + static_cast<int>(x), range_.low.y, range_.low.z};
@@ -200,7 +202,7 @@ class RowSearch {
   std::uint32_t first_ = 0;
 };
 
-// The runs that the lanes of a group hold, as one: entry t of all of them, in the order of the lanes.
+// The runs that the lanes of a group hold, joined in the order of the lanes: locate() finds entry t of all of them.
 template <std::uint32_t kGroup>
 class RunsOfGroup {
  public:
@@ -238,7 +240,7 @@ class RunsOfGroup {
   std::uint32_t total_ = 0;
 };
 
-// One box of each group against the runs that its lanes hold, an entry a lane at a time.
+// Tests one box of each group against the runs that its lanes hold; each lane takes one entry at a time.
 template <std::uint32_t kGroup, typename Work>
 __device__ void test_runs(const GridView& g, const PackedBox& q, const EntryRun& run, WarpQueue& queue, Work& work) {
   if (!__any_sync(kFullWarp, run.end > run.begin)) return;
@@ -253,8 +255,8 @@ __device__ void test_runs(const GridView& g, const PackedBox& q, const EntryRun&
       const PackedBox other = g.entries[k];
       work.tests(1);
       other_id = other.low_tag;
-      // Buckets are shared: an entry of another run that happens to be here is found from its own. Of one cell the
-      // lower id finds.
+      // Cells may share a bucket: entries of other cells than the run's are skipped here, since their own run finds
+      // them. In one cell the box with the lower id finds the other.
       hit = core::overlaps(unpack(q), unpack(other)) && ((other.high_tag ^ tag) & kRunTag) == 0 &&
             ((other.high_tag ^ q.high_tag) << 6 != 0 || other_id > q.low_tag) &&
             (q.high_tag & other.high_tag & kStaticTag) == 0;
@@ -263,9 +265,9 @@ __device__ void test_runs(const GridView& g, const PackedBox& q, const EntryRun&
   }
 }
 
-// Every pair is found from its smaller box: a box looks at its own level and at those of larger cells, so that a
-// giant's many overlaps are spread over its many partners. A group of lanes a box: each lane looks up a row of cells,
-// so that a box waits for all its rows at once, then all lanes test what the rows hold.
+// Every pair is found from its smaller box: a box looks at its own level and at those of larger cells, so that the many
+// overlaps of a very large box are found by its many partners. A group of lanes takes a box. Each lane looks up a row
+// of cells, so that the loads of all rows wait together; then all lanes test the entries of the rows.
 template <std::uint32_t kGroup, typename Team, typename Work>
 __device__ void grid_find_by(const Team& team, const GridView& g, std::uint32_t count, WarpQueue& queue, Work& work) {
   const std::uint32_t occupied = *static_cast<volatile std::uint32_t*>(g.levels);
@@ -301,7 +303,8 @@ __device__ void grid_find_by(const Team& team, const GridView& g, std::uint32_t 
   }
 }
 
-// Few boxes wait less when more lanes share one; many are done sooner when fewer lanes idle behind short runs.
+// If boxes are few, more lanes for each hide more waiting; if they are many, fewer lanes for each means fewer idle
+// lanes at short runs.
 template <typename Team, typename Work>
 __device__ void grid_find(const Team& team, const GridView& g, std::uint32_t count, WarpQueue& queue, Work& work) {
   if (std::uint64_t{count} * 8 <= team.size())

@@ -15,15 +15,16 @@ struct HashRange {
   CellCorner low;
   std::uint32_t width_x = 0;
   std::uint32_t width_y = 0;
-  std::uint64_t cells = 0;  // kMostHashCells + 1 when there are more
+  std::uint64_t cells = 0;  // kMostHashCells + 1 if there are more
 };
 
-// Rounding and floor are monotone: boxes that touch at a coordinate both touch its cell.
+// The cells that a box touches. Rounding and floor are monotone, so boxes that touch at a coordinate both have its
+// cell.
 __device__ inline HashRange hash_range(const HashView& h, const PackedBox& box) {
   const CellCorner low = cell_of(box.min, h.cells_per_m);
   const CellCorner high = cell_of(box.max, h.cells_per_m);
   const auto width = [](int from, int to) {
-    // From the lowest cell to the highest it is 2^32, which one more than the difference would wrap to none.
+    // From the lowest cell to the highest there are 2^32 cells, and the difference plus one would wrap to 0.
     return min(static_cast<std::uint32_t>(to) - static_cast<std::uint32_t>(from), 65535U) + 1U;
   };
   const std::uint32_t x = width(low.x, high.x);
@@ -44,7 +45,7 @@ __device__ inline std::uint32_t hash_bucket(const HashView& h, CellCorner c) {
   return (v ^ v >> 16) & h.bucket_mask;
 }
 
-// A warp per body. Counts stay right when there is no room for the entries, so that room can be made.
+// A warp per body. It counts all entries even if there is no room for them, so that the host knows how much to make.
 template <typename Team>
 __device__ void hash_count(const Team& team, const HashView& h, const PackedBox* boxes, std::uint32_t body_count,
                            Counters* counters) {
@@ -78,7 +79,7 @@ __device__ inline bool is_pair_of_boxes(const PackedBox& a, const PackedBox& b) 
   return core::overlaps(unpack(a), unpack(b)) && (a.high_tag & b.high_tag) == 0;
 }
 
-// A thread per entry, against the entries of its cell; then the oversized bodies against all.
+// A thread per entry tests it against the entries of its cell; then oversized bodies are tested against all bodies.
 template <typename Team, typename Work>
 __device__ void hash_find(const Team& team, const HashView& h, const PackedBox* boxes, std::uint32_t body_count,
                           const Counters* counters, WarpQueue& queue, Work& work) {

@@ -9,7 +9,7 @@
 
 namespace broadside::gpu {
 
-// Place in preorder of a node of the complete octree, and one past its subtree.
+// A node's place in the preorder of the complete octree, and one past the end of its subtree.
 struct NodeSpan {
   std::uint32_t first = 0;
   std::uint32_t end = 0;
@@ -30,7 +30,7 @@ __device__ inline void octree_count(const OctreeView& o, std::uint64_t body, con
   o.rank[body] = atomicAdd(&o.node_count[node_span(o, box).first], 1U);
 }
 
-// By one warp: the nodes are few.
+// One warp does this, since nodes are few.
 template <typename Team>
 __device__ void octree_place_nodes(const Team& team, const OctreeView& o) {
   if (team.rank() >= 32) return;

@@ -1,5 +1,5 @@
-// Pairs found by one warp, kept in shared memory so that the warp takes its room in the append buffer at once: one
-// atomic for some two hundred pairs.
+// A queue in shared memory for the pairs that one warp finds. The warp reserves room in the append buffer for all of
+// them together, with one atomic for some two hundred pairs.
 #pragma once
 
 #include "gpu/broad/broad_view.hpp"
@@ -33,8 +33,8 @@ class WarpQueue {
     write(__shfl_sync(kFullWarp, base, 0));
   }
 
-  // By all warps of a block, once each: one atomic for all of them, since all warps of a grid are done at about the
-  // same time. `pairs` is zero before; it and `base` are the block's, in shared memory.
+  // Called once by each warp of a block. The block uses one atomic for all of its warps, because all warps of a grid
+  // end at about the same time. `pairs` and `base` lie in the block's shared memory; `pairs` must be zero before.
   __device__ void flush_block(std::uint32_t& pairs, unsigned long long& base) {
     const std::uint32_t before = room_for_warp(count_, &pairs);
     __syncthreads();

@@ -1,4 +1,4 @@
-// Bodies of a small frame, and all their pairs: METHOD sections 1 and 2.
+// Integrates the bodies of a small frame and tests all their pairs: METHOD sections 1 and 2.
 #pragma once
 
 #include "core/method/levels.hpp"
@@ -16,7 +16,7 @@ namespace broadside::gpu {
 // The place of a pair that goes to no list.
 constexpr std::uint32_t kNoPlace = 0xFFFFFFFFU;
 
-// A warp's item of the ring at a time: a body and those that it is paired with, a lane each.
+// The items of the ring that a warp takes one after another: a body and those that it is paired with, a lane each.
 class RingItem {
  public:
   __device__ RingItem(const GridPlaces& team, const SmallFrameView& f)
@@ -44,7 +44,7 @@ class RingItem {
   BodyRing<FloatDivisor>::RingPair pair_;
 };
 
-// By a whole warp, of a pair that level 0 found.
+// Called by a whole warp for a pair that level 0 found.
 __device__ inline bool is_confirmed_by_levels(const SmallFrameView& f, const ShapesInBlock& shapes,
                                               const PlacedShape& a, const PlacedShape& b) {
   Uncounted work;
@@ -53,8 +53,8 @@ __device__ inline bool is_confirmed_by_levels(const SmallFrameView& f, const Sha
   return are_levels_overlapping<2>(f, shapes, a, b, work);
 }
 
-// Level 0 for the pairs of an item, whose bodies are given as they were before the frame; and the levels below it, if
-// they come first. If they do not, nothing is confirmed yet.
+// Tests level 0 for the pairs of an item, whose bodies are given as they were before the frame. If levels come first,
+// it tests the levels below 0 too; if not, it confirms no pair yet.
 __device__ inline void find_small_pairs(const SmallFrameView& f, const ShapesInBlock& shapes,
                                         const BodyRing<FloatDivisor>::RingPair& at, const BodyBefore& before_i,
                                         const BodyBefore& before_j) {
@@ -91,7 +91,7 @@ __device__ inline void find_small_pairs(const SmallFrameView& f, const ShapesInB
 }
 
 // Integrates bodies and finds pairs with no barrier between: a warp that tests a pair integrates both bodies itself.
-// Returns false, and has done nothing, behind an aborted frame. `item`: the warp's first.
+// After an aborted frame it does nothing and returns false. `item`: the warp's first.
 __device__ inline bool integrate_and_find_pairs(const GridTeam& team, const SmallFrameView& f,
                                                 const ShapesInBlock& shapes, RingItem item) {
   const std::uint32_t is_aborted = is_behind_aborted(f);
@@ -129,7 +129,7 @@ __device__ inline bool integrate_and_find_pairs(const GridTeam& team, const Smal
   return true;
 }
 
-// Levels that do not come first: warps of teams that have no pair test them while other teams search vertices.
+// Tests levels that do not come first: warps of teams that have no pair do it while other teams search vertices.
 class SmallLevels {
  public:
   static constexpr bool kIsSmallFrame = true;
@@ -137,12 +137,12 @@ class SmallLevels {
 
   __device__ SmallLevels(const SmallFrameView& f, const ShapesInBlock& shapes) : f_(f), shapes_(shapes) {}
 
-  // Copies the octrees: begun before a warp of the block calls look(), ended before the warp that calls these ends. By
-  // one warp.
+  // Copies the octrees. One warp calls both: begin() before a warp of the block calls look(), end() before the warp
+  // itself ends.
   __device__ void begin() const { shapes_.begin_octrees(f_); }
   __device__ void end() const { shapes_.end_octrees(); }
 
-  // By a warp: writes whether the levels reject pair k. Returns whether they keep it.
+  // Called by a warp. Stores whether the levels reject pair k, and returns whether they keep it.
   __device__ bool look(const PlacedPair& bodies, std::uint64_t k) const {
     const bool is_kept = is_confirmed_by_levels(f_, shapes_, bodies.i, bodies.j);
     if (lane() == 0) f_.measured[k].is_rejected = is_kept ? 0 : 1;

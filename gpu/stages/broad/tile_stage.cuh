@@ -1,4 +1,4 @@
-// Tests of all pairs over tiles of bodies: the published start, and the pairs of the published octree. METHOD
+// Tests all pairs in tiles of bodies: for the published start, and for the candidates of the published octree. METHOD
 // section 2.
 #pragma once
 
@@ -11,14 +11,15 @@
 
 namespace broadside::gpu {
 
-// The tile (row, column) with row <= column of the t-th place along rows of a triangle with `side` tiles a side.
+// The t-th tile, row by row, of a triangle of tiles (row, column) with row <= column and `side` tiles a side.
 struct Tile {
   std::uint32_t row = 0;
   std::uint32_t column = 0;
 };
 
 __device__ inline Tile tile_at(std::uint64_t t, std::uint32_t side) {
-  // Tiles before row r: r side - r (r - 1) / 2. The root is within one of the answer; the loops settle it.
+  // Before row r there are r side - r (r - 1) / 2 tiles. The rounded root is within one of the answer; the loops
+  // correct it.
   const double b = 2.0 * side + 1.0;
   std::uint64_t row = static_cast<std::uint64_t>((b - sqrt(b * b - 8.0 * static_cast<double>(t))) * 0.5);
   const auto before = [side](std::uint64_t r) { return r * side - r * (r - (r == 0 ? 0 : 1)) / 2; };
@@ -27,8 +28,8 @@ __device__ inline Tile tile_at(std::uint64_t t, std::uint32_t side) {
   return {static_cast<std::uint32_t>(row), static_cast<std::uint32_t>(row + (t - before(row)))};
 }
 
-// A warp per tile of 32 x 32 bodies of `boxes`, whose low tags name them: each lane tests one column's box
-// against the 32 rows. `range_end`: a row is tested against the columns before its own end only; null: all.
+// A warp per tile of 32 x 32 bodies of `boxes`, whose low tags name them: each lane tests one column's box against the
+// 32 rows. `range_end`: a row is tested only against the columns before its own end; null: against all.
 template <typename Team, typename Work>
 __device__ void find_pairs_by_tiles(const Team& team, const PackedBox* boxes, std::uint32_t count,
                                     const std::uint32_t* range_end, AppendView<core::Pair> out,
@@ -63,7 +64,8 @@ __device__ void find_pairs_by_tiles(const Team& team, const PackedBox* boxes, st
   }
 }
 
-// Levels level1, A and B: a warp tests all boxes of the level of a body against those of four others.
+// For the levels level1, A and B: a warp tests all boxes that a body has on the level against those of four other
+// bodies.
 template <typename Team, typename Work>
 __device__ void confirm_by_brute_force(const Team& team, const FrameView& f, Work& work) {
   constexpr std::uint32_t kShare = 4;

@@ -1,5 +1,6 @@
-// First touches of pairs of features that move: the formulas of core/continuous/, a thread a query. The first look
-// decides most of them; those that it leaves are gathered, so that the threads of a warp search together.
+// Finds when pairs of moving features first touch, by the formulas of core/continuous/, with a thread for each query. A
+// first look decides most queries; those that it leaves open are gathered, so that all threads of a warp have one to
+// search.
 #pragma once
 
 #include "core/continuous/feature_impact.hpp"
@@ -19,7 +20,8 @@ __device__ inline unsigned long long bits_of_time(double time) {
   return bits;
 }
 
-// No query need go on after this time. Another thread may make it earlier meanwhile, which costs work and no answer.
+// No query needs to search beyond this time. Another thread may lower it meanwhile: that costs extra work, but changes
+// no answer.
 __device__ inline double limit_of(const ImpactView& view) {
   if (view.times != nullptr) return 1.0;
   return time_of_bits(*static_cast<volatile unsigned long long*>(&view.counts->earliest_bits));
@@ -62,7 +64,7 @@ __device__ void look_at_queries(const ImpactView& view) {
   }
 }
 
-// As first_impact_of, but that it may end at the limit.
+// As first_impact_of, but it may stop at the limit.
 template <int kCount>
 __device__ double search_query(const continuous::MovingFeatures& features, bool is_unlooked, double limit) {
   const auto x = continuous::differences_of<kCount>(features);
@@ -85,7 +87,7 @@ __device__ void search_left(const ImpactView& view) {
     if (view.times != nullptr) {
       view.times[query] = time;
     } else if (time <= limit) {
-      // Whatever is as early as the earliest of all is so when it is found, and is noted.
+      // A touch as early as the earliest of all is not later than any other when it is found, so it is always noted.
       const unsigned long long before = atomicMin(&view.counts->earliest_bits, bits_of_time(time));
       if (time > time_of_bits(before)) continue;
       const std::uint32_t place = atomicAdd(&view.counts->hits, 1U);

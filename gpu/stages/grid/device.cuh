@@ -1,5 +1,5 @@
-// What stages need of CUDA beyond the language, in one place. gpu/on_host/device.hpp has the same for the host, where
-// the threads of a kernel are fibers: so the stages run, and are tested, without a GPU.
+// What stages need from CUDA beyond the language. gpu/on_host/device.hpp has the same for the host, where the threads
+// of a kernel are fibers. So the stages can be run and tested without a GPU.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +13,7 @@
 
 namespace broadside::gpu {
 
-// Inline assembly stands in four places, where CUDA's C++ was measured slower; each says by how much.
+// There is inline assembly in four places, where CUDA's C++ was measured to be slower; each place says by how much.
 
 // A word that all blocks may read and write at any time.
 template <typename T>
@@ -23,13 +23,13 @@ using GridAtomic = cuda::atomic_ref<T, cuda::thread_scope_device>;
 // contacts 5 % slower.
 __device__ inline void relax() {}
 
-// The barrier of one team of warps of a block, at most 15 teams a block. By whole warps: CUDA's __barrier_sync_count
-// does not know that they are whole, and a search of vertices takes 3 % longer with it.
+// The barrier of one team of warps of a block; a block has at most 15 teams. Called by whole warps. CUDA's
+// __barrier_sync_count cannot rely on warps being whole, and a search of vertices takes 3 % longer with it.
 __device__ inline void sync_warps(std::uint32_t team, std::uint32_t warps) {
   asm volatile("bar.sync %0, %1;" ::"r"(team + 1), "r"(warps * 32) : "memory");
 }
 
-// Counts an arrival at *arrived and waits until there are `awaited`; orders memory over the grid. By one thread.
+// Counts an arrival at *arrived and waits until there are `awaited`; orders memory over the grid. Called by one thread.
 __device__ inline void arrive_and_wait(std::uint32_t* arrived, std::uint32_t awaited) {
   const GridAtomic<std::uint32_t> count(*arrived);
   count.fetch_add(1, cuda::memory_order_release);
@@ -38,18 +38,18 @@ __device__ inline void arrive_and_wait(std::uint32_t* arrived, std::uint32_t awa
 
 // A barrier for all blocks of a launch, which must be resident together. It counts on one word (grid_word.hpp) that is
 // zero before the first launch and serves one launch at a time. A block loads the word when the launch begins, before
-// any block can flip its highest bit; so at the barrier it waits for one load alone, until that bit differs. Arriving
-// and waiting are inline assembly: by cuda::atomic_ref, which addresses memory generically, frames take 0.7 % longer.
+// any block can flip its highest bit. At the barrier it then only repeats one load until that bit differs. Arriving and
+// waiting are inline assembly: by cuda::atomic_ref, which addresses memory generically, frames take 0.7 % longer.
 class GridBarrier {
  public:
   __device__ explicit GridBarrier(unsigned long long* word) : word_(word) {
     if (threadIdx.x == 0) seen_ = GridAtomic<unsigned long long>(*word).load(cuda::memory_order_relaxed);
   }
 
-  // Waits for all blocks; what any thread wrote before is visible to all threads after. By all threads.
+  // Called by all threads. Waits for all blocks; what any thread wrote before is visible to all threads after.
   __device__ void sync() { arrive_and_wait_for_all(nullptr); }
-  // The same in two parts: between them a thread may do what no other thread has to see, and needs to see nothing of
-  // theirs.
+  // The same in two parts. Between them a thread may do work whose results no other thread reads, and that reads
+  // nothing of other threads.
   __device__ void arrive() {
     __syncthreads();
     if (threadIdx.x == 0) count_arrival();
@@ -58,7 +58,7 @@ class GridBarrier {
     if (threadIdx.x == 0) wait_for_all();
     __syncthreads();
   }
-  // As sync, and returns the tally. `in_block`: in the block's shared memory, for this alone.
+  // As sync, and returns the tally. `in_block`: a word of the block's shared memory that nothing else uses.
   __device__ unsigned long long sync_and_read(unsigned long long* in_block) {
     arrive_and_wait_for_all(in_block);
     return *in_block;
@@ -107,7 +107,7 @@ struct ClusterBarrier {
   }
 };
 
-// Adds to a word of global memory by the first lane of a whole warp, and returns to it what was there; 0 to others.
+// The first lane of a whole warp adds to a word of global memory and gets what was there before; the other lanes get 0.
 __device__ inline unsigned long long add_by_first_lane(unsigned long long* to, unsigned long long value) {
   return threadIdx.x % 32 == 0 ? atomicAdd(to, value) : 0;
 }
@@ -117,9 +117,9 @@ __device__ inline std::uint32_t arrive(std::uint32_t* arrived) {
   return GridAtomic<std::uint32_t>(*arrived).fetch_add(1, cuda::memory_order_acq_rel);
 }
 
-// Loads a word that other blocks may be writing, for threads with `asks`; 0 for others. A predicated load, so that a
-// thread waits where it uses the word: after a load inside an if it would wait at the end of the if, and a small grid
-// frame takes 0.8 us longer.
+// Loads a word that other blocks may be writing, if `asks`; else returns 0. A predicated load, so that a thread waits
+// where it uses the word: after a load inside an if it would wait at the end of the if, and a small grid frame takes
+// 0.8 us longer.
 __device__ inline std::uint32_t load_fresh_if(bool asks, const std::uint32_t* from) {
   std::uint32_t v = 0;
   asm volatile("{ .reg .pred asks; setp.ne.u32 asks, %2, 0; @asks ld.relaxed.gpu.global.u32 %0, [%1]; }"
@@ -129,8 +129,8 @@ __device__ inline std::uint32_t load_fresh_if(bool asks, const std::uint32_t* fr
   return v;
 }
 
-// Two words of 16 bytes, loaded at once, each in one access that is never torn. Each is of one moment; both together
-// need not be. In global memory the multiprocessor's own cache is bypassed.
+// Loads two words of 16 bytes, each in one access that is never torn. Each word is consistent in itself; the two may be
+// of different moments. In global memory the loads bypass the multiprocessor's own cache.
 struct GridWords {
   __device__ static void load_two_whole(const uint4* from, uint4 (&words)[2]) {
     for (int k = 0; k < 2; ++k) words[k] = load_whole(from + k);
@@ -139,14 +139,14 @@ struct GridWords {
   __device__ static void store_whole(uint4* to, uint4 v) {
     __nv_atomic_store(to, &v, __NV_ATOMIC_RELAXED, __NV_THREAD_SCOPE_DEVICE);
   }
-  // One such word, of this moment.
+  // Loads one such word, as it is at this moment.
   __device__ static uint4 load_whole(const uint4* from) {
     uint4 v;
     __nv_atomic_load(const_cast<uint4*>(from), &v, __NV_ATOMIC_RELAXED, __NV_THREAD_SCOPE_DEVICE);
     return v;
   }
-  // Compare and swap: stores `v` if the word still is `seen`, which gets what the word was. Returns whether it stored.
-  // The highest bit of the last 4 bytes is reserved: without such an instruction, it locks the word.
+  // Compare and swap: stores `v` if the word still equals `seen`, and sets `seen` to what the word was. Returns whether
+  // it stored. The highest bit of the last 4 bytes is reserved: on GPUs that lack the instruction it locks the word.
   __device__ static bool replace_whole(uint4* at, uint4& seen, uint4 v) {
 #if __CUDA_ARCH__ >= 900
     return __nv_atomic_compare_exchange(at, &seen, &v, false, __NV_ATOMIC_RELAXED, __NV_ATOMIC_RELAXED,
@@ -178,16 +178,17 @@ struct BlockWords {
   }
 };
 
-// Loads 16 bytes that are not needed again: the first to leave the caches.
+// Loads 16 bytes that are not needed again, so that they are the first to be evicted from the caches.
 __device__ inline uint4 load_once(const uint4* from) {
   return __ldcs(from);
 }
 
-// A copy from global to shared memory, both aligned to 16 bytes. One warp begins it, any thread of the block may wait
-// for it. Lies in shared memory; for one copy a launch. A block must not end before its copy has.
+// A copy from global to shared memory, both aligned to 16 bytes. One warp begins it, and any thread of the block may
+// wait for it. The object lies in shared memory and serves one copy a launch. A block must not end before its copy has
+// ended.
 class BlockCopy {
  public:
-  // By one thread. A barrier of the block must follow before any other call.
+  // Called by one thread. A barrier of the block must follow before any other call.
   __device__ void init() {
 #if __CUDA_ARCH__ >= 900
     cuda::ptx::mbarrier_init(reinterpret_cast<std::uint64_t*>(&done_), 1);
@@ -196,7 +197,7 @@ class BlockCopy {
     done_ = 0;
 #endif
   }
-  // By a whole warp. With compute capability 9, one thread starts one copy of the bulk copy engine.
+  // Called by a whole warp. From compute capability 9 on, one thread starts one copy by the bulk copy engine.
   __device__ void begin(void* to, const void* from, std::uint32_t bytes) {
 #if __CUDA_ARCH__ >= 900
     if (threadIdx.x % 32 == 0) {
@@ -233,7 +234,7 @@ __device__ inline int floor_to_int(float v) {
   return __float2int_rd(v);
 }
 
-// Two signed halves at once: max(0, min(a + b, most)).
+// For both signed halves of the words: max(0, min(a + b, most)).
 __device__ inline std::uint32_t clamped_sums(std::uint32_t a, std::uint32_t b, std::uint32_t most) {
   return __viaddmin_s16x2_relu(a, b, most);
 }

@@ -1,4 +1,4 @@
-// Boxes and vertices out of memory as whole words.
+// Loads boxes and vertices from memory as whole words.
 #pragma once
 
 #include "core/math/box.hpp"
@@ -10,14 +10,14 @@
 
 namespace broadside::gpu {
 
-// Of its lower and upper corner.
+// The box with these words as its lower and upper corner.
 __device__ inline core::Box box_of(const uint4& low, const uint4& high) {
   return {{__uint_as_float(low.x), __uint_as_float(low.y), __uint_as_float(low.z)},
           {__uint_as_float(high.x), __uint_as_float(high.y), __uint_as_float(high.z)}};
 }
 
-// One load of 16 bytes, two for a box. The compiler alone would load word by word, and look-ups of cache lines are what
-// limits a search.
+// One load of 16 bytes, or two for a box. By itself the compiler would load word by word, and a search is limited by
+// look-ups of cache lines.
 __device__ inline PackedVec3 fetched(const PackedVec3* from) {
   const uint4 word = *reinterpret_cast<const uint4*>(from);
   return {{__uint_as_float(word.x), __uint_as_float(word.y), __uint_as_float(word.z)}, __uint_as_float(word.w)};

@@ -1,4 +1,4 @@
-// The word of global memory on which a grid's barrier counts. Every block adds its share: all shares together flip the
+// The word of global memory on which a grid's barrier counts. Every block adds its share. All shares together flip the
 // highest bit and leave the other bits as they were, so the word needs no reset.
 #pragma once
 

@@ -1,4 +1,4 @@
-// The device's clock at the begin of a frame and at the end of each stage, for the host to read.
+// Writes the device's clock, at the begin of a frame and at the end of each stage, for the host to read.
 #pragma once
 
 #include "gpu/frame/frame_view.hpp"

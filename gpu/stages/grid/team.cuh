@@ -1,4 +1,4 @@
-// Teams: the threads that work on a stage together. The whole grid, its first blocks, or one block.
+// Teams: the threads that work on a stage together. A team is the whole grid, its first blocks, or one block.
 #pragma once
 
 #include <cstdint>
@@ -12,8 +12,8 @@ constexpr unsigned kFullWarp = 0xFFFFFFFFU;
 // The grid of a kernel that has no barrier.
 struct GridPlaces {
   __device__ std::uint64_t rank() const { return std::uint64_t{blockIdx.x} * blockDim.x + threadIdx.x; }
-  // Another numbering: the first warp of every block, then the second of each. A small number of items is then spread
-  // over all multiprocessors.
+  // Another numbering of threads: the first warp of every block, then the second warp of every block, and so on. So few
+  // items are still spread over all multiprocessors.
   __device__ std::uint64_t spread_rank() const {
     return (std::uint64_t{threadIdx.x / 32} * gridDim.x + blockIdx.x) * 32 + threadIdx.x % 32;
   }
@@ -44,8 +44,8 @@ struct BlockTeam {
   __device__ void sync() const { __syncthreads(); }
 };
 
-// The first blocks of a grid whose others have ended: a barrier of fewer blocks is faster. `arrived` starts at zero and
-// counts all arrivals of the launch.
+// The first blocks of a grid whose other blocks have ended, since a barrier of fewer blocks is faster. `arrived` starts
+// at zero and counts all arrivals of the launch.
 struct PartialGridTeam {
   std::uint32_t blocks = 1;
   std::uint32_t* arrived = nullptr;
@@ -56,8 +56,8 @@ struct PartialGridTeam {
   __device__ std::uint64_t spread_rank() const {
     return (std::uint64_t{threadIdx.x / 32} * blocks + blockIdx.x) * 32 + threadIdx.x % 32;
   }
-  // A third numbering: the first lane of every warp, then the second of each. Threads that wait for each other's
-  // contacts are then in different warps, as long as there are warps enough.
+  // A third numbering: the first lane of every warp, then the second lane of every warp, and so on. As long as there
+  // are enough warps, each has only one thread with a body, so no chain of contacts waits for other lanes of its warp.
   __device__ std::uint64_t lonely_rank() const {
     const std::uint64_t warps = std::uint64_t{blocks} * (blockDim.x / 32);
     return threadIdx.x % 32 * warps + std::uint64_t{threadIdx.x / 32} * blocks + blockIdx.x;
@@ -91,26 +91,27 @@ __device__ inline unsigned lane() {
   return threadIdx.x % 32;
 }
 
-// Between the loads of a whole warp and the first use of any of them, so that the warp waits once. Without it the
-// compiler, to use fewer registers, waits for one word before it loads the next; it moves no access past a barrier of
-// the warp.
+// Call it between the loads of a whole warp and the first use of any loaded word, so that the warp waits only once.
+// Without it the compiler, to use fewer registers, waits for one word before it loads the next. It works because the
+// compiler moves no access past a barrier of the warp.
 __device__ inline void group_loads() {
   __syncwarp();
 }
 
-// Takes `count` places for a whole warp; returns the first.
+// Reserves `count` places for a whole warp; returns the first.
 __device__ inline std::uint32_t room_for_warp(std::uint32_t count, std::uint32_t* taken) {
   std::uint32_t first = 0;
   if (lane() == 0) first = atomicAdd(taken, count);
   return __shfl_sync(kFullWarp, first, 0);
 }
-// The same for one item of these lanes: this lane's.
+// The same with one place for each of these lanes; returns this lane's.
 __device__ inline std::uint32_t place_in_warp(unsigned lanes, std::uint32_t* taken) {
   return room_for_warp(__popc(lanes), taken) + __popc(lanes & ((1U << lane()) - 1U));
 }
 
-// Room for the items of one warp in an append buffer: one atomic for all its lanes. Called by whole warps. Returns the
-// place of this lane's first item; places at or past the capacity are counted and not to be written.
+// Reserves room for the items of one warp in an append buffer, with one atomic for all its lanes. Called by whole
+// warps. Returns the place of this lane's first item. Places at or past the capacity are counted, but must not be
+// written.
 template <typename Count>
 __device__ Count warp_append(unsigned count, Count* demanded) {
   unsigned before = count;
@@ -126,7 +127,7 @@ __device__ Count warp_append(unsigned count, Count* demanded) {
   return __shfl_sync(kFullWarp, base, 0) + before;
 }
 
-// The same for one item of some lanes.
+// The same for lanes that have one item or none.
 template <typename Count>
 __device__ Count warp_append_one(bool has_one, Count* demanded) {
   const unsigned with = __ballot_sync(kFullWarp, has_one);

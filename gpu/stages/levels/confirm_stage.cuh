@@ -1,4 +1,4 @@
-// The body octrees of a pair of bodies, level by level; a warp per pair. METHOD section 2.
+// Tests the body octrees of a pair of bodies level by level, with a warp for each pair. METHOD section 2.
 #pragma once
 
 #include "core/method/levels.hpp"
@@ -10,8 +10,8 @@
 
 namespace broadside::gpu {
 
-// Where the boxes of all shapes' octrees are; stages that descend take any class with this at(), once it was waited
-// for.
+// Where the boxes of all shapes' octrees are. Stages that descend take any class with this at(), whose data must be
+// there.
 struct OctreesInMemory {
   const PackedBox* boxes;
 
@@ -38,7 +38,7 @@ struct EightByEightHits {
   }
 };
 
-// Eight boxes of each body, as the lanes of a warp hold them: one of B, two of A.
+// Eight boxes of each of two bodies, held by the lanes of a warp: each lane has one of B and two of A.
 struct EightByEight {
   static constexpr std::uint32_t kTestsOfLane = 2;
 
@@ -46,7 +46,7 @@ struct EightByEight {
   core::Box low;
   core::Box high;
 
-  // From these boxes of both on.
+  // Takes eight boxes of each body, from these two on.
   template <typename Octrees>
   __device__ EightByEight(const Octrees& octrees, std::uint32_t of_a, core::Vec3 xa, std::uint32_t of_b, core::Vec3 xb)
       : b(core::translated(octrees.at(of_b + lane() % 8), xb)),
@@ -64,7 +64,7 @@ __device__ EightByEight first_level(const Octrees& octrees, const PlacedShape& a
   return {octrees, a.first_box() + kFirst, a.x, b.first_box() + kFirst, b.x};
 }
 
-// The children of boxes p of A and q of B, which `bit` = 8 p + q of the first level's hits names.
+// The children of boxes p of A and q of B, where `bit` = 8 p + q is one of the first level's hits.
 template <typename Octrees>
 __device__ EightByEight second_level(const Octrees& octrees, const PlacedShape& a, const PlacedShape& b,
                                      std::uint32_t bit) {
@@ -73,8 +73,8 @@ __device__ EightByEight second_level(const Octrees& octrees, const PlacedShape& 
 }
 
 // core::descent_overlaps by a warp. Empty boxes overlap nothing, so they need no test of their own. kAtOnce of the
-// first level's hits are descended at a time: two where waiting for boxes takes the time, one where other warps hide
-// that wait.
+// first level's hits are descended at a time: two if waiting for boxes takes the time, one if other warps hide that
+// wait.
 template <unsigned kAtOnce, typename Octrees, typename Work>
 __device__ bool descends(const Octrees& octrees, const PlacedShape& a, const PlacedShape& b, Work& work) {
   static_assert(kAtOnce == 1 || kAtOnce == 2);
@@ -83,8 +83,8 @@ __device__ bool descends(const Octrees& octrees, const PlacedShape& a, const Pla
     work.tests(EightByEight::kTestsOfLane * kAtOnce);
     const EightByEight one = second_level(octrees, a, b, hits.take());
     if constexpr (kAtOnce == 2) {
-      // If there is no second hit, the children of box pair 63 are tested, which do not overlap unless their parents
-      // do.
+      // If there is no second hit, the children of box pair 63 are tested instead, which is harmless: they overlap only
+      // if their parents do.
       const EightByEight other = second_level(octrees, a, b, hits.take());
       if ((one.hits() | other.hits()).any()) return true;
     } else if (one.hits().any()) {
@@ -94,7 +94,8 @@ __device__ bool descends(const Octrees& octrees, const PlacedShape& a, const Pla
   return false;
 }
 
-// core::level2_overlaps by a warp: all pairs, two boxes of A a lane against each box of B.
+// core::level2_overlaps by a warp: tests all pairs, with two boxes of A in each lane against one box of B after
+// another.
 template <typename Work>
 __device__ bool level2_overlaps(const FrameView& f, const PlacedShape& a, const PlacedShape& b, Work& work) {
   const PackedBox* boxes_a = f.shapes.level2 + std::uint64_t{a.shape} * core::kLevelSize[2];
@@ -114,7 +115,7 @@ __device__ bool level2_overlaps(const FrameView& f, const PlacedShape& a, const 
   return __any_sync(kFullWarp, hit);
 }
 
-// core::is_confirmed by a warp, for the levels that have a first level below 0 or passed it already.
+// core::is_confirmed by a warp, for pairs whose level 0 was tested already or for levels that begin below it.
 template <unsigned kAtOnce, typename Octrees, typename Work>
 __device__ bool are_levels_overlapping(const FrameView& f, const Octrees& octrees, const PlacedShape& a,
                                        const PlacedShape& b, Work& work) {
@@ -133,15 +134,15 @@ __device__ bool are_levels_overlapping(const FrameView& f, const Octrees& octree
   return false;
 }
 
-// Of these two bodies.
+// The same for these two bodies.
 template <typename Work>
 __device__ bool are_levels_overlapping(const FrameView& f, core::Pair p, Work& work) {
   return are_levels_overlapping<1>(f, OctreesInMemory{f.shapes.octree}, placed_shape(f, p.i), placed_shape(f, p.j),
                                    work);
 }
 
-// From pairs to confirmed. Each warp takes a run of pairs and appends what it confirms with one atomic; runs are short
-// while there are more warps than pairs, so that a small number of pairs is tested at once.
+// Confirms pairs. Each warp takes a run of pairs and appends those that it confirms with one atomic. If pairs are few,
+// runs are short, so that all pairs are tested at the same time.
 template <typename Team, typename Work>
 __device__ void confirm_pairs(const Team& team, const FrameView& f, Work& work) {
   const std::uint64_t count = f.counters->pairs;

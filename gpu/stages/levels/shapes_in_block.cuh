@@ -1,4 +1,4 @@
-// What the stages of a small frame read of shapes again and again, copied into a block's shared memory.
+// Copies what the stages of a small frame often read of shapes into a block's shared memory.
 #pragma once
 
 #include "core/method/levels.hpp"
@@ -9,7 +9,7 @@
 
 namespace broadside::gpu {
 
-// Behind what every kernel has there. Of scenes with more shapes nothing is copied.
+// It lies after what every kernel has there. If a scene has more shapes than kMost, nothing is copied.
 struct alignas(16) BlockShapes {
   static constexpr std::uint32_t kMost = 4;
   static constexpr std::uint32_t kMostUpper = 256;
@@ -20,8 +20,8 @@ struct alignas(16) BlockShapes {
   PackedBox upper[kMostUpper];
 };
 
-// Copies begin while bodies are integrated; octrees then only if levels come first. A warp that tests levels waits for
-// the octrees.
+// Copies begin while bodies are integrated; that of octrees begins then only if levels come first. A warp that tests
+// levels waits for the octrees.
 class ShapesInBlock {
  public:
   __device__ ShapesInBlock(const SmallFrameView& f, unsigned char* shared, BlockCopy& octree_copy,
@@ -35,7 +35,8 @@ class ShapesInBlock {
                    f.shapes.tree_upper_count <= BlockShapes::kMostUpper) {}
 
   __device__ bool has_octrees() const { return has_octrees_; }
-  // By all threads of the block; one warp does it. begin() before a barrier of the block, end() after it.
+  // Called by all threads of the block, but one warp does the work: begin() before a barrier of the block, end() after
+  // it.
   __device__ void begin(const SmallFrameView& f) const {
     if (!is_ours()) return;
     if (has_octrees_ && lane() == 0) octree_copy_.init();
@@ -49,7 +50,8 @@ class ShapesInBlock {
   __device__ void end(const SmallFrameView& f) const {
     if (f.are_levels_first && is_ours()) end_octrees();
   }
-  // Copies upper nodes, begun after bodies are loaded, ended before a thread leaves the block. By all its threads.
+  // Copies upper nodes. Called by all threads of the block: begin_upper() after bodies are loaded, end_upper() before
+  // any thread ends.
   __device__ void begin_upper(const SmallFrameView& f) const {
     if (has_upper_ && is_ours())
       upper_copy_.begin(room_->upper, f.shapes.tree_upper, f.shapes.tree_upper_count * sizeof(PackedBox));
@@ -57,8 +59,8 @@ class ShapesInBlock {
   __device__ void end_upper() const {
     if (has_upper_ && is_ours()) upper_copy_.wait();
   }
-  // The same for octrees, once a launch, by one warp: begun before any thread waits for them, ended before the warp
-  // leaves.
+  // The same for octrees, once a launch. Called by one warp: begin_octrees() before any thread waits for them,
+  // end_octrees() before the warp ends.
   __device__ void begin_octrees(const SmallFrameView& f) const {
     if (has_octrees_)
       octree_copy_.begin(room_->octree, f.shapes.octree, f.shapes.count * core::kBodyOctreeNodes * sizeof(PackedBox));
@@ -76,10 +78,10 @@ class ShapesInBlock {
   }
 
  private:
-  // Neither the first warp, which waits at the grid's barrier, nor the last, which has bodies.
+  // The warp that copies: not the first, which waits at the grid's barrier, nor the last, which has bodies.
   __device__ static bool is_ours() { return threadIdx.x / 32 == blockDim.x / 64; }
 
-  // By the warp, word by word: headers are no multiple of anything larger.
+  // The warp copies word by word, since the size of a header is not a multiple of anything larger.
   template <typename Header>
   __device__ static void copy(Header* to, const Header* from, std::uint32_t count) {
     static_assert(sizeof(Header) % sizeof(std::uint32_t) == 0);

@@ -1,4 +1,5 @@
-// Boxes of a part that reach over its upper face, and the digest of pairs: kernels without barriers.
+// Finds the boxes of a part that reach over its upper face, and adds up the digest of pairs, by kernels without
+// barriers.
 #pragma once
 
 #include "gpu/broad/border_view.hpp"
@@ -6,7 +7,7 @@
 
 namespace broadside::gpu {
 
-// By whole warps.
+// Called by whole warps.
 __device__ inline void append_guest(const BorderView& view, std::uint32_t to_part, bool reaches, std::uint64_t i,
                                     const PackedBox& box) {
   const unsigned all = __ballot_sync(kFullWarp, reaches);

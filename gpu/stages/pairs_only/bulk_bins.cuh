@@ -1,9 +1,10 @@
-// Sorts boxes of bulk pairs into their buckets, in two steps. Boxes that come in no order and more entries than the
-// cache holds make every entry a write somewhere else in memory, which takes it several times as long as a run of them.
-// So entries go to bins first, each some chunks of buckets, a tile of boxes at a time, so that a tile's share of a bin
-// is a run; then bin by bin, each small enough for a multiprocessor's shared memory, into their buckets. Entries end up
-// in the order of their buckets. From some 15 million boxes on there are more bins than a tile can count, and than it
-// has entries for: these go to coarse bins first.
+// Sorts boxes of bulk pairs into their buckets, in two steps. If boxes come in no order, and there are more entries
+// than the cache holds, every entry is written to another place in memory, which takes several times as long as writing
+// a run of entries. So entries first go to bins, each of which is several chunks of buckets. That is done one tile of
+// boxes at a time, so that a tile writes its share of a bin as a run. Then, bin by bin, entries go to their buckets; a
+// bin is small enough for a multiprocessor's shared memory. In the end entries lie in the order of their buckets. From
+// some 15 million boxes on there are more bins than a tile can count, and than a tile has entries: then entries go to
+// coarse bins first.
 #pragma once
 
 #include <algorithm>
@@ -14,10 +15,10 @@
 
 namespace broadside::gpu {
 
-// Of a bin, in shared memory: its share and what the last of its chunks has beyond.
+// Entries of a bin in shared memory: its share of a tile's size, and what its last chunk has beyond that.
 constexpr std::uint32_t kStagedPerThread = 11;
 
-// Of shared memory. `bucket_bytes`: of what a step writes of an entry's bucket.
+// Shared memory for a tile. `bucket_bytes`: the size of what a step stores for an entry's bucket.
 constexpr std::uint32_t tile_bytes(std::uint32_t threads, std::uint32_t bins, std::uint32_t bucket_bytes) {
   return kBoxesPerThread * threads *
              (static_cast<std::uint32_t>(sizeof(BulkEntry) + 2 * sizeof(std::uint16_t)) + bucket_bytes) +
@@ -28,11 +29,12 @@ constexpr std::uint32_t bin_bytes(std::uint32_t threads) {
                                     (kGroupBuckets + 32) * sizeof(std::uint32_t));
 }
 
-// Bins of these boxes for blocks of this many threads that may have `most_bytes` of shared memory; none where that is
-// too little. `most_at_once`: bins that a tile counts, even if it could count more; 0: no such limit.
+// The bins for these boxes, for blocks of this many threads that may have `most_bytes` of shared memory; no bins if
+// that is too little. `most_at_once`: the most bins that a tile counts, even if it could count more; 0: no such limit.
 //
-// Blocks count each tile's entries by bin in shared memory. Where a tile can count all bins, boxes go to them in one
-// step. Above, they go to coarse bins first; then a tile holds entries of few coarse bins, whose bins it can count.
+// Blocks count each tile's entries by bin in shared memory. If a tile can count all bins, boxes go to them in one step.
+// If there are more bins, boxes go to coarse bins first; after that a tile has entries of few coarse bins, and can
+// count the bins of these.
 constexpr BinsShape bins_shape(std::uint32_t threads, std::uint32_t boxes, std::uint32_t buckets,
                                std::uint32_t most_bytes, std::uint32_t most_at_once) {
   BinsShape shape;
@@ -40,16 +42,17 @@ constexpr BinsShape bins_shape(std::uint32_t threads, std::uint32_t boxes, std::
   shape.bins_of_tile = shape.bins;
   shape.shared_bytes = std::max(tile_bytes(threads, shape.bins, sizeof(std::uint16_t)), bin_bytes(threads));
   if (shape.shared_bytes <= most_bytes && (most_at_once == 0 || shape.bins <= most_at_once)) return shape;
-  // As many coarse bins as a coarse bin has bins: both steps write runs that are equally long.
+  // There are about as many coarse bins as a coarse bin has bins, so that both steps write runs of about the same
+  // length.
   while (shape.bins >> 2 * shape.coarse_shift != 0) ++shape.coarse_shift;
-  // A tile seldom reaches over more than two coarse bins; where it does, it is gone through several times.
+  // A tile seldom has entries of more than two coarse bins; if it does, it is gone through several times.
   const std::uint32_t of_two = 2U << shape.coarse_shift;
   shape.bins_of_tile = std::max(shape.coarse_bins(), most_at_once == 0 ? of_two : std::min(of_two, most_at_once));
   shape.shared_bytes = std::max(tile_bytes(threads, shape.bins_of_tile, sizeof(std::uint32_t)), bin_bytes(threads));
   return shape.shared_bytes <= most_bytes ? shape : BinsShape{};
 }
 
-// What the three steps differ in: from where entries come, by which bins they are put, and to where.
+// What differs between the three steps: where entries come from, into which bins they go, and where they are written.
 struct BoxesToBins {
   using Bucket = std::uint16_t;
   using Item = PackedBox;
@@ -91,7 +94,7 @@ struct CoarseBinsToBins : BoxesToBins {
   __device__ BulkPlace place(const Item& item, std::uint64_t /*k*/) const { return {item.entry, item.bucket, {}, 0}; }
 };
 
-// The bins over which a block's tile reaches. `room`: 2 words. Has barriers of the block.
+// The first and last bin that entries of a block's tile belong to. `room`: 2 words. Contains barriers of the block.
 struct BinRange {
   std::uint32_t first = 0;
   std::uint32_t last = 0;
@@ -108,20 +111,21 @@ __device__ inline BinRange range_over_block(BinRange own, std::uint32_t* room) {
   return all;
 }
 
-// Tile by tile: entries into bins.
+// Puts entries into bins, tile by tile.
 template <typename Step>
 __device__ void fill_bins(const BulkView& g, const Step& step, std::uint32_t count, unsigned char* shared) {
   using Bucket = typename Step::Bucket;
   const BinsView& b = g.bins;
   const std::uint32_t tile = kBoxesPerThread * blockDim.x;
   const std::uint32_t bins = b.shape.bins_of_tile;
-  constexpr int kRankBits = 16;  // beside which a tile's bin fits
+  constexpr int kRankBits = 16;  // a tile's bin fits into the other bits
   constexpr std::uint32_t kElsewhere = ~0U;
-  // By their place among the boxes: entries. By bin: which box it is, its bucket, its bin.
+  // Entries lie in the order of the boxes. The other arrays are in the order of the bins: which entry of the tile it
+  // is, its bucket, its bin.
   auto* entries = reinterpret_cast<BulkEntry*>(shared);
   auto* written_bucket = reinterpret_cast<Bucket*>(entries + tile);
   auto* begin_of_bin = reinterpret_cast<std::uint32_t*>(written_bucket + tile);
-  std::uint32_t* offset = begin_of_bin + bins + 1;  // from a place in the tile to that in memory
+  std::uint32_t* offset = begin_of_bin + bins + 1;  // what to add to a place in the tile to get that in memory
   std::uint32_t* room = offset + bins;
   auto* which = reinterpret_cast<std::uint16_t*>(room + 32);
   std::uint16_t* bin_at = which + tile;
@@ -169,7 +173,7 @@ __device__ void fill_bins(const BulkView& g, const Step& step, std::uint32_t cou
                               : kElsewhere;
       }
       __syncthreads();
-      // Each thread some neighboring bins.
+      // Each thread takes some neighboring bins.
       const std::uint32_t each = (bins + blockDim.x - 1) / blockDim.x;
       const std::uint32_t from = min(threadIdx.x * each, bins);
       const std::uint32_t to = min(from + each, bins);
@@ -214,7 +218,8 @@ __device__ void fill_bins(const BulkView& g, const Step& step, std::uint32_t cou
   }
 }
 
-// Gives every bucket of these chunks its range; `place`: counts before, where the ranges begin after.
+// Gives every bucket of these chunks its range. `place` has the counts of the buckets before the call, and the begins
+// of their ranges after it.
 __device__ inline void place_in_bin(const BulkView& g, std::uint32_t first_chunk, std::uint32_t chunks,
                                     std::uint32_t begin, std::uint32_t* place, std::uint32_t* room) {
   constexpr std::uint32_t kMostEach = 8;
@@ -238,12 +243,12 @@ __device__ inline void place_in_bin(const BulkView& g, std::uint32_t first_chunk
   }
   for (std::uint32_t k = threadIdx.x; k < buckets; k += blockDim.x)
     g.begin[bucket_place(first_chunk * kBucketChunk + k)] = place[k];
-  // The word more of each chunk.
+  // Each chunk's additional word.
   for (std::uint32_t k = threadIdx.x; k < chunks; k += blockDim.x)
     g.begin[bucket_place((first_chunk + k + 1) * kBucketChunk) - 1] = g.bins.chunk_begin[first_chunk + k + 1];
 }
 
-// Bin by bin: entries into buckets.
+// Puts entries into buckets, bin by bin.
 __device__ inline void empty_bins(const BulkView& g, unsigned char* shared) {
   const BinsView& b = g.bins;
   auto* staged = reinterpret_cast<BulkEntry*>(shared);
@@ -251,7 +256,7 @@ __device__ inline void empty_bins(const BulkView& g, unsigned char* shared) {
   std::uint32_t* room = place + kGroupBuckets;
   for (std::uint32_t bin = blockIdx.x; bin < b.shape.bins; bin += gridDim.x) {
     const std::uint32_t first_chunk = b.first_chunk[bin];
-    if (first_chunk == ~0U) continue;  // of a group's empty chunks, or of a share in which no chunk begins
+    if (first_chunk == ~0U) continue;  // no chunk with entries belongs to this bin
     const std::uint32_t chunks = b.last_chunk[bin] + 1 - first_chunk;
     const std::uint32_t begin = b.chunk_begin[first_chunk];
     const std::uint32_t count = b.chunk_begin[first_chunk + chunks] - begin;
@@ -281,7 +286,7 @@ __device__ inline void empty_bins(const BulkView& g, unsigned char* shared) {
       }
       __syncthreads();
       for (std::uint32_t k = threadIdx.x; k < count; k += blockDim.x) g.entries[begin + k] = staged[k];
-    } else {  // one chunk has more than fits
+    } else {  // a chunk has more entries than fit
       for (std::uint32_t e = threadIdx.x; e < count; e += blockDim.x)
         atomicAdd(&place[b.bucket[begin + e] - first_bucket], 1U);
       __syncthreads();

@@ -1,4 +1,4 @@
-// Which bins boxes of bulk pairs have, and where their chunks of buckets begin: see bulk_bins.cuh.
+// Finds the bins of bulk pairs, and where chunks of buckets begin: see bulk_bins.cuh.
 #pragma once
 
 #include "gpu/stages/broad/bucket_stage.cuh"
@@ -9,12 +9,13 @@
 namespace broadside::gpu {
 
 constexpr std::uint32_t kBoxesPerThread = 8;  // of a tile
-constexpr std::uint32_t kGroupChunks = 64;    // of which a bin has some
+constexpr std::uint32_t kGroupChunks = 64;    // a bin has some of these
 constexpr std::uint32_t kGroupBuckets = kGroupChunks * kBucketChunk;
 static_assert(kGroupBuckets <= 1U << 16, "BinsView::bucket");
 
-// Bins for blocks of this many threads: a bin's chunks belong to one group of them, and begin in one share of all
-// entries that is as large as a tile. Both grow along the chunks, so their sum says which bin it is.
+// How many bins there are for blocks of this many threads. The chunks of a bin belong to one group of chunks, and begin
+// in one share of the entries that is as large as a tile. The numbers of group and share both grow along the chunks, so
+// their sum is a bin's number.
 constexpr std::uint32_t bins_of(std::uint32_t threads, std::uint32_t boxes, std::uint32_t buckets) {
   return boxes / (kBoxesPerThread * threads) + buckets / kGroupBuckets + 1;
 }
@@ -22,7 +23,7 @@ __device__ inline std::uint32_t bin_of(std::uint32_t chunk, std::uint32_t begin)
   return begin / (kBoxesPerThread * blockDim.x) + chunk / kGroupChunks;
 }
 
-// Sum over the threads of a block before this one. `room`: 32 words. Has barriers of the block.
+// The sum over the threads of the block that come before this one. `room`: 32 words. Contains barriers of the block.
 __device__ inline std::uint32_t sum_before(std::uint32_t own, std::uint32_t* room) {
   std::uint32_t through = own;
   for (unsigned step = 1; step < 32; step *= 2) {
@@ -39,7 +40,7 @@ __device__ inline std::uint32_t sum_before(std::uint32_t own, std::uint32_t* roo
   return before + through - own;
 }
 
-// How many entries each chunk has.
+// Counts the entries of each chunk.
 template <typename Team>
 __device__ void count_chunks(const Team& team, const BulkView& g, const PackedBox* boxes, std::uint32_t count) {
   const BinsView& b = g.bins;
@@ -67,15 +68,16 @@ __device__ void count_chunks(const Team& team, const BulkView& g, const PackedBo
   }
 }
 
-// Neighboring chunks are mostly of one coarse bin: the first of them speaks for all, as it begins first. By whole
-// warps.
+// Notes where the entries of a coarse bin begin. Neighboring chunks mostly belong to one coarse bin, so only the first
+// of them, which begins first, uses an atomic. Called by whole warps.
 __device__ inline void note_coarse_begin(const BinsView& b, std::uint32_t chunk, bool has_chunk, std::uint32_t begin) {
   const std::uint32_t coarse = bin_of(chunk, begin) >> b.shape.coarse_shift;
   const std::uint32_t previous = __shfl_up_sync(kFullWarp, coarse, 1);
   if (has_chunk && (lane() == 0 || previous != coarse)) atomicMin(&b.coarse_cursor[coarse], begin);
 }
 
-// Where each chunk begins, and what bins that makes. Empty chunks are done with: nothing begins in their buckets.
+// Finds where each chunk begins, and which bins follow from that. Also writes the begins of the buckets of empty
+// chunks, which no later step visits.
 template <typename Team>
 __device__ void place_chunks_in_order(const Team& team, const BulkView& g, std::uint32_t* room) {
   const BinsView& b = g.bins;

@@ -1,6 +1,6 @@
-// The launch before the search of bulk pairs, from a million boxes on: it puts entries in order by bins. Only the two
-// files of kernels include it, and only it includes bulk_bins.cuh and bulk_chunks.cuh. Without it bulk pairs are sorted
-// by bulk_sort.cuh alone, which takes 7 % longer at a million boxes and 16 % at ten million.
+// The launch before the search of bulk pairs from a million boxes on: it puts entries in order by bins. Only the two
+// files of kernels include this file, and only this file includes bulk_bins.cuh and bulk_chunks.cuh. Without it
+// bulk_sort.cuh would sort bulk pairs, which takes 7 % longer at a million boxes and 16 % at ten million.
 #pragma once
 
 #include "gpu/stages/pairs_only/bulk_bins.cuh"
@@ -9,7 +9,7 @@
 
 namespace broadside::gpu {
 
-// `shared`: a block's own, of BinsShape::shared_bytes.
+// `shared`: the block's shared memory, BinsShape::shared_bytes of it.
 __device__ inline void run_sort(const PairsView& view, unsigned char* shared) {
   const GridTeam grid(view.barrier);
   const BulkView& bulk = view.bulk;

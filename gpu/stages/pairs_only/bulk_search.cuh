@@ -1,16 +1,16 @@
-// The search of bulk pairs: of boxes without a simulation. Every pair is found from its smaller box: a
-// box looks at its own level and at those of larger cells, so that a giant's many overlaps are spread over its many
-// partners.
+// The search of bulk pairs, that is of boxes without a simulation. Every pair is found from its smaller box: a box
+// looks at its own level and at those of larger cells, so that the many overlaps of a very large box are found by its
+// many partners.
 //
-// A lane takes a box, or where boxes are few and have many others in their cells, four lanes do, each a share of
-// every run of entries. Row of cells by row it walks the entries in which partners may be, and notes those whose
-// rounded boxes overlap its own. Of most of these the rounded boxes say that they are partners; at the others it looks
-// closely. Lanes of a warp have boxes of neighboring cells, so what they read is mostly the same.
+// A lane takes a box. If boxes are few and have many others in their cells, four lanes take one box, each a share of
+// every run of entries. A lane goes through the rows of cells in which partners may be, and notes the entries whose
+// rounded boxes overlap its own. For most of these the rounded boxes show that they are partners; for the others it
+// tests the exact boxes. Lanes of a warp have boxes of neighboring cells, so they mostly read the same entries.
 //
-// Why there are two searches: this one does the least work a box, and waits for all of a box's rows one after another.
-// With tens of thousands of boxes enough warps are there to hide that; with fewer the search of grid_stage.cuh, where
-// lanes share a box, is done sooner. It is also the one in a frame, whose kernel has no registers and no shared memory
-// to spare: there this one made a pile of 100 000 cubes 13 % slower.
+// Why there are two searches: this one does the least work for each box, but waits for the rows of a box one after
+// another. With tens of thousands of boxes there are enough warps to hide that; with fewer the search of
+// grid_stage.cuh, in which lanes share a box, is faster. Frames use that search too, since their kernel has no
+// registers and no shared memory to spare: this search made a pile of 100 000 cubes 13 % slower.
 #pragma once
 
 #include "gpu/broad/broad_view.hpp"
@@ -26,10 +26,10 @@ struct BulkNotes {
   static constexpr std::uint32_t kHits = 24;
   static constexpr std::uint32_t kUnsure = 1U << 31;
   PairQueue queue;
-  std::uint32_t hit[kHits][32];  // what each lane has found: its entry, then its body; kUnsure: look closely
+  std::uint32_t hit[kHits][32];  // what each lane has found: first its entry, later its body; kUnsure: test exactly
 };
 
-// Pairs are of the search's own numbers of boxes; named_pairs.cuh has others.
+// Names boxes in pairs by the search's own numbers; named_pairs.cuh has another way.
 struct OwnNumbers {
   __device__ bool keeps(std::uint32_t /*a*/, std::uint32_t /*b*/) const { return true; }
   __device__ core::Pair pair_of(bool /*is_pair*/, std::uint32_t a, std::uint32_t b) const {
@@ -37,8 +37,8 @@ struct OwnNumbers {
   }
 };
 
-// A lane's search for the partners of one box after the other. Every call is by the whole warp. `kLanes` neighboring
-// lanes have the same box: a power of two.
+// A lane searches for the partners of one box after another. Every call is by the whole warp. `kLanes` neighboring
+// lanes, a power of two, have the same box.
 template <typename Work, typename Names = OwnNumbers, std::uint32_t kLanes = 1>
 class BulkSearch {
  public:
@@ -46,7 +46,7 @@ class BulkSearch {
                         unsigned long long* demanded, Names names = {})
       : g_(g), boxes_(boxes), notes_(notes), names_(names), queue_(notes.queue, out, demanded) {}
 
-  // The box at this place of the entries.
+  // Searches for the partners of the box at this place among the entries.
   __device__ void find_partners(std::uint32_t place, bool has_box, LevelMarks marks) {
     place_ = place;
     BulkEntry entry;
@@ -77,10 +77,10 @@ class BulkSearch {
   __device__ const Work& work() const { return work_; }
 
  private:
-  // Of a run, by each lane.
+  // How many entries of a run each lane reads at once.
   static constexpr std::uint32_t kEntriesAtOnce = 4;
   static_assert((kEntriesAtOnce - 1) * kLanes <= kEntriesBehind);
-  // Three rows at a time, so that their loads wait together: there seldom are more in y.
+  // Three rows are looked up at a time, so that their loads wait together; a box seldom has more in y.
   static constexpr std::uint32_t kRows = 3;
 
   struct Runs {
@@ -88,8 +88,8 @@ class BulkSearch {
     std::uint32_t end[kRows];
   };
 
-  // Two boxes of the same level would find each other twice: the one in the lexicographically lower cell (z, y, x)
-  // finds, in one cell the one whose entry is first.
+  // Two boxes of one level would find each other twice, so only one of them looks: the one in the lexicographically
+  // lower cell (z, y, x) or, in one cell, the one whose entry comes first.
   __device__ void look_at_level(int level, bool looks) {
     const int coarser = own_level_ - level;
     const bool is_own_level = coarser == 0;
@@ -98,7 +98,7 @@ class BulkSearch {
     const TableCell high = table_cell(g_, cell_above(g_, fine_max_, coarser), level);
     TableCell low = table_cell(g_, lowest_cell(g_, fine_min_, coarser), level);
     if (is_own_level) low.z = own.z;
-    // Seldom do the cells of one box belong to several blocks.
+    // The cells that a box looks at seldom belong to several blocks.
     const bool has_blocks =
         __any_sync(kFullWarp, looks && ((low.x ^ high.x) >> g_.x_bits | (low.y ^ high.y) >> g_.axis_bits |
                                         (low.z ^ high.z) >> g_.axis_bits) != 0);
@@ -109,7 +109,7 @@ class BulkSearch {
       const bool has_more_y = __any_sync(kFullWarp, looks && y + kRows < rows_y);
       for (std::uint32_t z = 0;; ++z) {
         const bool has_more_z = __any_sync(kFullWarp, looks && z + 1 < rows_z);
-        // Where a row of cells is cut into two runs, both.
+        // If a row of cells is cut into two runs, the loop takes both.
         TableCell cell{low.x, low.y + y, low.z + z};
         for (bool is_in_row = looks && z < rows_z;;) {
           const std::uint32_t more = min(high.x - cell.x, row_mask(g_) - (cell.x & row_mask(g_)));
@@ -143,8 +143,8 @@ class BulkSearch {
     }
   }
 
-  // Notes what may be partners in three rows, the first of which begins at `cell`. A lane whose notes are full waits.
-  // Lanes of one box take neighboring entries, so that a load of theirs is of one line of memory.
+  // Notes possible partners in three rows, the first of which begins at `cell`. A lane whose notes are full waits.
+  // Lanes of one box take neighboring entries, so that together they load from one line of memory.
   __device__ void walk(Runs& runs, TableCell cell, int level) {
     // Two static boxes are no pair.
     const std::uint32_t tag_mask = kRowTag | static_tag_;
@@ -152,7 +152,7 @@ class BulkSearch {
       has_more = false;
 #pragma unroll
       for (std::uint32_t j = 0; j < kRows; ++j) {
-        // Buckets are shared: an entry of another row that happens to be here is found from its own.
+        // Cells may share a bucket: entries of other rows are skipped here, since their own row finds them.
         const std::uint32_t row_tag = block_tag(g_, {cell.x, cell.y + j, cell.z}, level);
         while (runs.k[j] < runs.end[j] && hits_ <= BulkNotes::kHits - kEntriesAtOnce) {
           work_.tests(min(kEntriesAtOnce, (runs.end[j] - runs.k[j] + kLanes - 1) / kLanes));
@@ -175,7 +175,7 @@ class BulkSearch {
     }
   }
 
-  // Of what was noted on this level: whose body it is, and whether the rounded boxes leave a doubt.
+  // For what was noted on this level: replaces the entry by its body, and marks it if the rounded boxes leave a doubt.
   __device__ void settle() {
 #pragma unroll 2
     for (std::uint32_t k = settled_; k < hits_; ++k) {
@@ -186,14 +186,14 @@ class BulkSearch {
     settled_ = hits_;
   }
 
-  // Passes on what each lane has noted, after a close look at what may be no pair.
+  // Puts what each lane has noted into the queue, after it has tested the exact boxes of doubtful notes.
   __device__ void look_closely() {
     std::uint32_t unsure = 0;  // bit k: the k-th note
     for (std::uint32_t k = 0; k < hits_; ++k) unsure |= notes_.hit[k][lane()] >> 31 << k;
     // Two at a time, so that their loads wait together.
     std::uint32_t left = unsure;
     if (__any_sync(kFullWarp, left != 0)) {
-      const PackedBox own = boxes_[body_];  // once more: it would cost registers all the while
+      const PackedBox own = boxes_[body_];  // loaded again: keeping it would cost registers
       while (left != 0) {
         const std::uint32_t first = __ffs(static_cast<int>(left)) - 1;
         left &= left - 1U;
@@ -223,14 +223,14 @@ class BulkSearch {
   Work work_;
   CellCorner fine_min_;
   CellCorner fine_max_;
-  CoarseBox coarse_;  // on the level that is searched
+  CoarseBox coarse_;  // in cells of the level that is searched
   std::uint32_t body_ = 0;
   std::uint32_t place_ = 0;
   int own_level_ = 0;
   std::uint32_t static_tag_ = 0;
-  std::uint32_t unsure_ = 0;   // whether cells of this level may be taken for others
-  std::uint32_t hits_ = 0;     // noted
-  std::uint32_t settled_ = 0;  // of them
+  std::uint32_t unsure_ = 0;   // whether cells of this level may be confused with others
+  std::uint32_t hits_ = 0;     // how many notes the lane has
+  std::uint32_t settled_ = 0;  // how many of these settle() has seen
 };
 
 // A share of the boxes, by their places among the entries.
@@ -239,8 +239,8 @@ struct BulkSlice {
   std::uint64_t end = 0;
 };
 
-// Warps take boxes as they are done with others: of a crowd one box has many partners, outside of it few. `g.turns` is
-// zero before.
+// A warp takes new boxes when it has finished its own, because boxes in a crowd have many partners and others few.
+// `g.turns` must be zero before.
 template <std::uint32_t kLanes = 1, typename Team, typename Names = OwnNumbers>
 __device__ void bulk_find(const Team& team, const BulkView& g, const PackedBox* boxes, BulkSlice slice,
                           BulkNotes& notes, AppendView<core::Pair> out, unsigned long long* demanded,
@@ -249,13 +249,14 @@ __device__ void bulk_find(const Team& team, const BulkView& g, const PackedBox* 
   const LevelMarks marks{known[0], known[1]};
   BulkSearch<Uncounted, Names, kLanes> search(g, boxes, notes, out, demanded, names);
   const std::uint64_t count = slice.end - slice.first;
-  // Of few boxes a warp takes fewer than it has lanes: it is done when the slowest of them is.
+  // If boxes are few, a warp takes fewer than it has lanes, because it lasts as long as its slowest lane.
   const std::uint64_t warps = warp_count(team);
   std::uint32_t width = 32 / kLanes;
   while (width > 4 && count <= warps * (width / 2)) width /= 2;
-  // Of many, as many turns at once as leave some sixteen: all warps take from one word, some 2 ns each.
+  // If boxes are many, a warp takes several turns at once, as long as each warp still has some sixteen: all warps take
+  // them from one word, which costs some 2 ns each time.
   const std::uint32_t turns = min(static_cast<std::uint32_t>(count / (team.size() * 16)), 3U) + 1;
-  // The first turns are fixed, one a warp; small numbers of boxes are spread over all multiprocessors.
+  // Each warp's first turns are fixed, in an order that spreads few boxes over all multiprocessors.
   std::uint64_t first = team.spread_rank() / 32 * width * turns;
   while (first < count) {
     std::uint64_t next = 0;

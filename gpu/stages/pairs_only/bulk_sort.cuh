@@ -1,5 +1,5 @@
-// Sorts boxes of bulk pairs into their buckets, all at once: counted by atomics, given ranges, written. Each box is one
-// write somewhere else in memory, which is what it takes the time for.
+// Sorts boxes of bulk pairs into their buckets in one step: atomics count them, buckets get ranges, boxes are written.
+// Each box is written to another place in memory, which is what takes the time.
 #pragma once
 
 #include "gpu/stages/broad/bucket_stage.cuh"
@@ -8,17 +8,17 @@
 
 namespace broadside::gpu {
 
-// Several boxes a thread at once: it waits for all their loads together.
+// A thread takes several boxes at once, so that it waits for all their loads together.
 constexpr std::uint32_t kBoxesAtOnce = 4;
 
-// What runs are read past their ends by holds a tag that matches no cell.
+// The entries behind the last one, which reads past the end of a run may meet, get a tag that matches no cell.
 template <typename Team>
 __device__ void end_entries(const Team& team, const BulkView& g, std::uint32_t count) {
   if (team.rank() < kEntriesBehind) g.entries[count + team.rank()] = {{}, 0, kNoCellTag};
 }
 
-// Counts boxes into buckets. The place within a bucket is whatever the order of the threads makes it: nothing that
-// follows depends on it.
+// Counts boxes into buckets. The place within a bucket depends on the order of the threads, but no result depends on
+// it.
 template <typename Team>
 __device__ void bulk_count(const Team& team, const BulkView& g, const PackedBox* boxes, std::uint32_t count) {
   for (std::uint64_t first = team.rank(); first < count; first += team.size() * kBoxesAtOnce) {

@@ -1,12 +1,13 @@
-// Looks for the partners that moving boxes have among standing ones, in the table of these. Most moving boxes have
-// none, and the others often lie side by side: a warp that took neighbors would have all the work or none. So first a
-// lane a box finds those that may have partners; then a warp takes one of these, and looks at every level that has
-// standing boxes: at coarser levels at the rows of cells that bulk_search.cuh looks at; at finer ones, where the box is
-// longer than a cell, at all cells that it covers. A lane looks a row up, some lanes share what it has, and boxes are
-// compared as they are.
+// Looks for the partners that moving boxes have among standing ones, in the table of the standing ones. Most moving
+// boxes have none, and the others often lie side by side, so a warp that took neighbors would have all the work or
+// none. So first each lane takes a box, and the boxes that may have partners are listed. Then a warp takes one listed
+// box after another, and looks at every level that has standing boxes. On coarser levels these are the rows of cells
+// that bulk_search.cuh looks at; on finer ones, where the box is longer than a cell, they are all cells that it covers.
+// Each lane looks up a row, several lanes share the row's entries, and exact boxes are compared.
 //
-// A standing box of a level is no longer than its cells. So it overlaps only where its lower corner lies between a cell
-// before the moving box and the moving box's end: the bound of lowest_cell holds whatever the other's size.
+// A standing box is no longer than the cells of its level. So it overlaps a moving box only if its lower corner lies
+// between a cell's length before the moving box and the end of the moving box. The bound of lowest_cell therefore holds
+// for moving boxes of any size.
 #pragma once
 
 #include "gpu/broad/cross_view.hpp"
@@ -23,7 +24,7 @@ class CrossSearch {
   __device__ CrossSearch(const CrossView& view, PairQueue& room)
       : view_(view), queue_(room, view.pairs, &view.counters->pairs) {}
 
-  // By the whole warp, of one box.
+  // Called by the whole warp for one box.
   __device__ void find_partners(const PackedBox& box) {
     const volatile std::uint32_t* known = view_.standing.levels;
     for (std::uint32_t left = known[0]; left != 0; left &= left - 1U)
@@ -32,7 +33,7 @@ class CrossSearch {
   __device__ void flush() { queue_.flush(); }
 
  private:
-  // Of a row: rows of triangles' boxes have some ten entries.
+  // How many lanes share a row: in meshes of triangles, rows have some ten entries.
   static constexpr std::uint32_t kLanesOfRow = 8;
   static constexpr std::uint32_t kRowsAtOnce = 32 / kLanesOfRow;
 
@@ -51,11 +52,11 @@ class CrossSearch {
     const TableCell high = table_cell(g, cell_above(g, fine_max, 0), level);
     const std::uint32_t rows_y = high.y - low.y + 1;
     const std::uint32_t rows_z = high.z - low.z + 1;
-    // A standing box begins in these cells and ends at most one cell further: of three cells, all differences of
-    // corners are less than the four cells that rounded boxes can tell.
+    // A standing box begins in these cells and ends at most one cell farther. If these are at most three cells, all
+    // differences of corners are less than the four cells that rounded boxes can tell apart.
     const bool is_short = (high.x - low.x) >> g.x_halvings < 3 && rows_y < 4 && rows_z < 4;
     const CoarseBox coarse = coarse_box(fine_min, fine_max, 0);
-    // A lane a row looks up where its run of entries is; few rows have any.
+    // Each lane looks up where a row's run of entries is; few rows have entries.
     for (std::uint32_t first = 0; first < rows_y * rows_z; first += 32) {
       const std::uint32_t row = first + lane();
       TableCell cell{low.x, low.y + row % rows_y, low.z + row / rows_y};
@@ -73,7 +74,7 @@ class CrossSearch {
     }
   }
 
-  // Every lane's own run, some at a time, each by some lanes.
+  // Goes through the runs that the lanes hold, several at a time, each by kLanesOfRow lanes.
   __device__ void walk_runs(const PackedBox& box, const Run& own, bool is_short, CoarseBox coarse) {
     for (unsigned left = __ballot_sync(kFullWarp, own.k < own.end); left != 0;) {
       unsigned rest = left;
@@ -109,7 +110,7 @@ class CrossSearch {
   WarpQueue queue_;
 };
 
-// By whole warps: which moving boxes may have partners, in any order.
+// Lists the moving boxes that may have partners, in any order. Called by whole warps.
 __device__ inline void note_near_boxes(const GridTeam& grid, const CrossView& view) {
   for (std::uint64_t first = warp_rank(grid) * 32; first < view.count; first += warp_count(grid) * 32) {
     const std::uint64_t place = first + lane();
@@ -123,7 +124,7 @@ __device__ inline void note_near_boxes(const GridTeam& grid, const CrossView& vi
   }
 }
 
-// `shared`: a PairQueue a warp.
+// `shared`: a PairQueue for each warp.
 __device__ inline void run_cross(const CrossView& view, unsigned char* shared) {
   const GridTeam grid(view.barrier);
   note_near_boxes(grid, view);

@@ -1,6 +1,6 @@
-// Pairs of boxes from pairs of groups of boxes that overlap, level by level: clusters, groups, boxes. A warp takes two
-// groups, a lane a member of each. Members that do not reach into what the groups have in common are in no pair. The
-// others are few, so several of one group are held against all of the other at once.
+// Finds pairs level by level: overlapping clusters give pairs of groups, overlapping groups give pairs of boxes. A warp
+// takes two groups, and each lane a member of each. Members that do not reach into the box that the groups have in
+// common are in no pair. The others are few, so several of one group are tested against all of the other at once.
 #pragma once
 
 #include "gpu/broad/grouped_view.hpp"
@@ -9,18 +9,18 @@
 
 namespace broadside::gpu {
 
-// One warp's room, in shared memory.
+// One warp's data in shared memory.
 struct JoinRoom {
   PairQueue queue;
   PackedBox a[kGroupSize];
   PackedBox b[kGroupSize];
 };
 
-// A block's.
+// A block's counts in shared memory.
 struct JoinCounts {
-  std::uint32_t next;       // piece of work that is not taken yet
-  std::uint32_t pairs;      // in the warps' queues
-  unsigned long long base;  // of these, in the list of pairs
+  std::uint32_t next;       // the first piece of work that is not taken yet
+  std::uint32_t pairs;      // how many pairs are in the warps' queues
+  unsigned long long base;  // their place in the list of pairs
 };
 
 __device__ inline core::Box common_box(const core::Box& a, const core::Box& b) {
@@ -36,19 +36,19 @@ __device__ inline bool is_pair_of(const PackedBox& a, const PackedBox& b) {
   return (a.high_tag & b.high_tag) == 0 && core::overlaps(unpack(a), unpack(b));
 }
 
-// Every call is by the whole warp. Pairs are told by low_tag; two static members are none.
+// Every call is by the whole warp. Pairs name members by their low_tag; two static members are no pair.
 class GroupJoin {
  public:
   __device__ GroupJoin(JoinRoom& room, AppendView<core::Pair> out, unsigned long long* demanded)
       : room_(room), queue_(room.queue, out, demanded) {}
 
-  // Members of two groups.
+  // Finds the pairs of members of two groups.
   __device__ void join(const PackedBox& a, const PackedBox& b, const core::Box& common) {
     const std::uint32_t count_a = keep(core::overlaps(unpack(a), common), a, room_.a);
     const std::uint32_t count_b = keep(core::overlaps(unpack(b), common), b, room_.b);
     __syncwarp();
     if (count_a != 0 && count_b != 0) {
-      // A lane has one of the larger side's for all of the smaller side's that it is held against.
+      // A lane keeps one member of the larger side while it is tested against members of the smaller side.
       if (count_a <= count_b)
         hold(room_.a, count_a, room_.b, count_b);
       else
@@ -57,7 +57,8 @@ class GroupJoin {
     __syncwarp();
   }
 
-  // Members of one group: each with those that are at most half of all behind it, around the ring of all.
+  // Finds the pairs within one group: on the ring of its members, each is paired with those on the half that follows
+  // it.
   __device__ void join_itself(const PackedBox& a) {
     const std::uint32_t count = keep(!core::is_empty(unpack(a)), a, room_.a);
     __syncwarp();
@@ -75,14 +76,15 @@ class GroupJoin {
   __device__ WarpQueue& queue() { return queue_; }
 
  private:
-  // Puts the members of these lanes behind each other; returns how many they are.
+  // Puts the members of the lanes with `is_kept` into consecutive places; returns how many there are.
   __device__ std::uint32_t keep(bool is_kept, const PackedBox& member, PackedBox* to) {
     const unsigned kept = __ballot_sync(kFullWarp, is_kept);
     if (is_kept) to[__popc(kept & ((1U << lane()) - 1U))] = member;
     return static_cast<std::uint32_t>(__popc(kept));
   }
 
-  // As many of the few at once as there are lanes for: 2^width_bits lanes have one of the many each.
+  // 2^width_bits lanes have one of the many each, and the warp tests them against as many of the few at once as it has
+  // lanes for.
   __device__ void hold(const PackedBox* few, std::uint32_t few_count, const PackedBox* many, std::uint32_t many_count) {
     const std::uint32_t width_bits = many_count < 2 ? 0U : 32U - static_cast<std::uint32_t>(__clz(many_count - 1));
     const std::uint32_t column = lane() & ((1U << width_bits) - 1U);
@@ -99,17 +101,18 @@ class GroupJoin {
   WarpQueue queue_;
 };
 
-// A block's share of the work: every so many-th piece, as many as there are blocks, since neighboring pieces are alike.
-// Its warps take them piece by piece, since pieces differ.
+// A block's share of the work: every n-th piece of n blocks, because neighboring pieces are alike. The block's warps
+// take pieces when they are free, because pieces differ.
 class BlockShare {
  public:
-  // By all threads of the block.
+  // Called by all threads of the block.
   __device__ BlockShare(JoinCounts& counts, std::uint64_t pieces) : counts_(counts) {
     count_ = static_cast<std::uint32_t>((pieces + gridDim.x - 1 - blockIdx.x) / gridDim.x);
     if (threadIdx.x == 0) counts.next = counts.pairs = 0;
     __syncthreads();
   }
-  // By the whole warp: `want` pieces, or what is left of them. Returns how many; a lane of those has its piece.
+  // Called by the whole warp. Takes `want` pieces, or as many as are left, and returns how many; lane k gets the k-th
+  // of them in `piece`.
   __device__ std::uint32_t take(std::uint32_t want, std::uint64_t& piece) {
     const std::uint32_t next = room_for_warp(want, &counts_.next);
     if (next >= count_) return 0;
@@ -125,7 +128,7 @@ class BlockShare {
 
 constexpr std::uint32_t kPiecesAtOnce = 4;
 
-// Every two clusters: the one that is some steps behind, around the ring of all.
+// Takes every two clusters: on the ring of all clusters, each with itself and with those on the half that follows it.
 __device__ inline void join_clusters(const GroupView& g, JoinRoom& room, JoinCounts& counts,
                                      unsigned long long* demanded) {
   const std::uint32_t groups = *g.entry_count / kGroupSize;
@@ -136,7 +139,7 @@ __device__ inline void join_clusters(const GroupView& g, JoinRoom& room, JoinCou
   };
   GroupJoin join(room, g.group_pairs, demanded);
   const std::uint64_t pieces = std::uint64_t{clusters} * (clusters / 2 + 1);
-  // Of very many, most do not overlap.
+  // If pieces are very many, most are clusters that do not overlap.
   const std::uint32_t want = pieces > std::uint64_t{gridDim.x} * blockDim.x * 32 ? 32U : kPiecesAtOnce;
   BlockShare share(counts, pieces);
   std::uint64_t piece = 0;
@@ -146,7 +149,7 @@ __device__ inline void join_clusters(const GroupView& g, JoinRoom& room, JoinCou
     const std::uint32_t q = p + step < clusters ? p + step : p + step - clusters;
     const PackedBox of_p = g.clusters[p];
     const PackedBox of_q = g.clusters[q];
-    const bool has_been = step * 2 == clusters && p >= step;  // the other way around
+    const bool has_been = step * 2 == clusters && p >= step;  // taken the other way around
     const core::Box common = common_box(unpack(of_p), unpack(of_q));
     unsigned left = __ballot_sync(kFullWarp, lane() < taken && !has_been && is_pair_of(of_p, of_q));
     for (; left != 0; left &= left - 1) {

@@ -1,5 +1,5 @@
 // Puts boxes in order along a Morton curve, so that neighbors follow each other, and in groups of 32: a counting sort
-// by cells. Which box goes to which cell decides nothing but the time that follows.
+// by cells. The choice of cells affects only the time that the search takes.
 #pragma once
 
 #include "gpu/broad/grouped_view.hpp"
@@ -7,7 +7,7 @@
 
 namespace broadside::gpu {
 
-// Bit k to bit 3 k; of the lowest ten.
+// Moves bit k to bit 3 k, for the lowest ten bits.
 __device__ inline std::uint32_t every_third_bit(std::uint32_t v) {
   v = (v | v << 16) & 0x030000FFU;
   v = (v | v << 8) & 0x0300F00FU;
@@ -25,7 +25,7 @@ __device__ inline std::uint32_t morton_cell(const GroupView& g, const core::Box&
          every_third_bit(index(center.z, g.corner.z)) << 2;
 }
 
-// The place within a cell is whatever the order of the threads makes it.
+// Counts boxes into cells. The place within a cell depends on the order of the threads.
 template <typename Team>
 __device__ void count_cells(const Team& team, const GroupView& g, const PackedBox* boxes, std::uint32_t count) {
   for (std::uint64_t i = team.rank(); i < count; i += team.size())
@@ -38,12 +38,12 @@ __device__ inline std::uint32_t warp_sum(std::uint32_t v) {
   return v;
 }
 
-// A lane's four cells of a chunk.
+// The counts of a lane's four cells of a chunk.
 __device__ inline uint4* counts_of_lane(const GroupView& g, std::uint64_t chunk) {
   return reinterpret_cast<uint4*>(g.count + chunk * kBucketChunk) + lane();
 }
 
-// How many entries each chunk fills, a warp a chunk.
+// Finds how many entries each chunk needs, with a warp for each chunk.
 template <typename Team>
 __device__ void measure_chunks(const Team& team, const GroupView& g) {
   for (std::uint64_t chunk = team.spread_rank() / 32; chunk < g.chunks(); chunk += warp_count(team)) {
@@ -53,7 +53,7 @@ __device__ void measure_chunks(const Team& team, const GroupView& g) {
   }
 }
 
-// Sum of these words over the whole block; `shared` has a word a warp.
+// Sum of these words over the whole block; `shared` has a word for each warp.
 __device__ inline std::uint32_t block_sum(std::uint32_t v, std::uint32_t* shared) {
   const std::uint32_t own = warp_sum(v);
   if (lane() == 0) shared[threadIdx.x / 32] = own;
@@ -63,7 +63,8 @@ __device__ inline std::uint32_t block_sum(std::uint32_t v, std::uint32_t* shared
   return sum;
 }
 
-// Gives the cells of a chunk their entries, ends them with empty boxes, and clears the counts for the next search.
+// Gives the cells of a chunk their ranges of entries, fills up the chunk with empty boxes, and clears the counts for
+// the next search.
 __device__ inline void place_chunk(const GroupView& g, std::uint32_t chunk, std::uint32_t before) {
   uint4* counts = counts_of_lane(g, chunk);
   const uint4 c = *counts;
@@ -84,7 +85,7 @@ __device__ inline void place_chunk(const GroupView& g, std::uint32_t chunk, std:
   if (chunk == g.chunks() - 1 && lane() == 0) *g.entry_count = before + room;
 }
 
-// A block some chunks that follow each other, a warp a chunk. `shared` has a word a warp.
+// A block takes some consecutive chunks, a warp one of them at a time. `shared` has a word for each warp.
 __device__ inline void place_cells(const GroupView& g, std::uint32_t* shared) {
   const std::uint32_t chunks = g.chunks();
   const std::uint32_t each = (chunks + gridDim.x - 1) / gridDim.x;
@@ -108,7 +109,7 @@ __device__ void fill_groups(const Team& team, const GroupView& g, const PackedBo
   }
 }
 
-// Around the boxes of all lanes. It is static if all of them are.
+// The box around the boxes of all lanes. It counts as static if all of them are.
 __device__ inline PackedBox around_warp(const PackedBox& own, std::uint32_t low_tag) {
   core::Box all = unpack(own);
 #pragma unroll
@@ -125,7 +126,7 @@ __device__ inline PackedBox around_warp(const PackedBox& own, std::uint32_t low_
   return pack(all, low_tag, __ballot_sync(kFullWarp, own.high_tag != 0) == kFullWarp ? 1U : 0U);
 }
 
-// A block a cluster, a warp a group. `shared` has a box for each of its groups.
+// A block takes a cluster, a warp a group. `shared` has a box for each group of the cluster.
 __device__ inline void measure_groups(const GroupView& g, PackedBox* shared) {
   const std::uint32_t groups = *g.entry_count / kGroupSize;
   for (std::uint32_t cluster = blockIdx.x; cluster * kGroupSize < groups; cluster += gridDim.x) {

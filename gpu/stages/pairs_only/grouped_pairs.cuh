@@ -1,5 +1,5 @@
-// Bulk pairs by groups of neighboring boxes. For boxes that lie on surfaces in space: each has many others in the cells
-// around it, and few partners; a group of 32 of them has few groups near it.
+// Finds bulk pairs by groups of neighboring boxes. This is for boxes that lie on surfaces in space: each has many
+// others in the cells around it, but few partners, and a group of 32 of them has few groups near it.
 #pragma once
 
 #include "gpu/stages/grid/stage_clock.cuh"
@@ -8,7 +8,8 @@
 
 namespace broadside::gpu {
 
-// Of a block: a room a warp, in which the boxes of a cluster's groups are before, and the block's counts.
+// Shared memory of a block: a JoinRoom for each warp, whose memory first holds the boxes of a cluster's groups, and the
+// block's counts.
 constexpr std::uint32_t grouped_shared_bytes(std::uint32_t threads) {
   return threads / 32 * static_cast<std::uint32_t>(sizeof(JoinRoom)) + static_cast<std::uint32_t>(sizeof(JoinCounts));
 }

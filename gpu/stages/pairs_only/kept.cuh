@@ -1,4 +1,4 @@
-// What a frame costs whose pairs are among those that were kept, and what keeps them: kernels without barriers.
+// Makes kept pairs, and tests them in frames that need no search, by kernels without barriers.
 #pragma once
 
 #include "gpu/broad/kept_view.hpp"
@@ -8,8 +8,8 @@
 
 namespace broadside::gpu {
 
-// Of the mean side, on each side of a box. Boxes that move by a hundredth a frame stay within for six frames, and some
-// (1 + 1/8)^3 = 1.4 times as many pairs are candidates.
+// How much fatter a box is made on each side, as a share of its mean side. Boxes that move by a hundredth of that side
+// a frame stay within for six frames, and there are some (1 + 1/8)^3 = 1.4 times as many candidates as pairs.
 constexpr float kFat = 0x1p-4F;
 
 __device__ inline void run_fatten(const KeptView& view) {
@@ -44,7 +44,7 @@ __device__ inline void run_renumber(const KeptView& view) {
   }
 }
 
-// What is no box is within nothing: then boxes are packed, and refused.
+// False also for what is not a box: then the boxes are packed, which refuses it.
 __device__ inline bool is_within(const core::Box& b, const PackedBox& fat) {
   bool is_within_all = true;
   for (int k = 0; k < 3; ++k)
@@ -52,7 +52,7 @@ __device__ inline bool is_within(const core::Box& b, const PackedBox& fat) {
   return is_within_all;
 }
 
-// Boxes are read by number, in a row, and written by place: a whole sector of memory each.
+// Boxes are read in the order of their numbers and written to their places; each fills a whole sector of memory.
 __device__ inline void run_within(const KeptView& view) {
   const GridPlaces grid;
   bool has_left = false;
@@ -64,7 +64,7 @@ __device__ inline void run_within(const KeptView& view) {
   if (__any_sync(kFullWarp, has_left) && lane() == 0) view.counts->left = 1;
 }
 
-// `shared`: a PairQueue a warp.
+// `shared`: a PairQueue for each warp.
 __device__ inline void run_test(const KeptView& view, unsigned char* shared) {
   const GridPlaces grid;
   WarpQueue queue(reinterpret_cast<PairQueue*>(shared)[threadIdx.x / 32], view.pairs, &view.counts->pairs);

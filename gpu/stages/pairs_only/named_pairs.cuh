@@ -1,4 +1,4 @@
-// Bulk pairs of a share of the boxes, by the caller's numbers: see broad/named_pairs_view.hpp.
+// Finds the bulk pairs of a share of the boxes and names them by the caller's numbers: see broad/named_pairs_view.hpp.
 #pragma once
 
 #include "gpu/broad/named_pairs_view.hpp"
@@ -16,7 +16,7 @@ struct CallersNumbers {
   __device__ std::uint32_t number(std::uint32_t box) const {
     return box < names.first_told ? names.base + box : boxes[box].low_tag;
   }
-  // What is no pair may be no box either.
+  // If it is not a pair, `b` may not be a box either, so its number must not be looked up.
   __device__ core::Pair pair_of(bool is_pair, std::uint32_t a, std::uint32_t b) const {
     return is_pair ? core::make_pair_of(number(a), number(b)) : core::Pair{};
   }

@@ -1,4 +1,4 @@
-// Packs boxes that lie on the device, and measures them, by a kernel without barriers.
+// A kernel without barriers that packs boxes which lie on the device, and measures them.
 #pragma once
 
 #include <cfloat>
@@ -8,7 +8,7 @@
 
 namespace broadside::gpu {
 
-// NaN fails every comparison.
+// False for NaN too, since NaN fails every comparison.
 __device__ inline bool is_sound_interval(float low, float high) {
   return low <= high && low >= -FLT_MAX && high <= FLT_MAX;
 }
@@ -24,8 +24,8 @@ __device__ inline void note_box(const core::Box& box, std::uint32_t place, BoxMe
   }
 }
 
-// By whole warps. All atomics of a word wait for each other, some 2 ns each, and thousands of warps come at once: those
-// that would change nothing look first.
+// Called by whole warps. Atomics on one word wait for each other, some 2 ns each, and thousands of warps come at the
+// same time. So a warp first looks whether it would change the word, and skips the atomic if not.
 __device__ inline void add_least(std::uint32_t* to, std::uint32_t value) {
   const std::uint32_t least = warp_min(value);
   if (threadIdx.x % 32 == 0 && least < *static_cast<volatile std::uint32_t*>(to)) atomicMin(to, least);
@@ -35,7 +35,7 @@ __device__ inline void add_largest(std::uint32_t* to, std::uint32_t value) {
   if (threadIdx.x % 32 == 0 && largest > *static_cast<volatile std::uint32_t*>(to)) atomicMax(to, largest);
 }
 
-// What one thread has noted, to that of all.
+// Adds what one thread has measured to the measure of all boxes.
 __device__ inline void add_measure(const BoxMeasure& own, BoxMeasure& all) {
   add_least(&all.first_bad, own.first_bad);
   add_largest(&all.largest_side, own.largest_side);

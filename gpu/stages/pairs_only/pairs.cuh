@@ -1,4 +1,4 @@
-// The broad phase alone, as the threads of its last launch run it; bulk_launch.cuh is the launch before it.
+// The broad phase alone, as the threads of its last launch run it; bulk_launch.cuh has the launch before it.
 #pragma once
 
 #include "gpu/frame/frame_kernel.hpp"
@@ -10,7 +10,7 @@
 
 namespace broadside::gpu {
 
-// By one thread, before any thread counts.
+// Called by one thread, before any thread counts.
 __device__ inline void start_counts(const PairsView& view) {
   *view.counters = Counters{};
   if (view.broad.start == Start::kBulk) *view.bulk.turns = 0;
@@ -26,7 +26,7 @@ struct PairsScratch<true> {
   BulkNotes notes;
 };
 
-// Boxes in, pairs out. kIsBulk: the search is that of Start::kBulk, by kLanes lanes a box.
+// Boxes in, pairs out. kIsBulk: the search is that of Start::kBulk, with kLanes lanes for each box.
 template <bool kIsBulk, std::uint32_t kLanes = 1>
 __device__ void run_pairs(const PairsView& view, unsigned char* shared) {
   const GridTeam grid(view.barrier);

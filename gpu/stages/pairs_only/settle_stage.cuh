@@ -1,5 +1,5 @@
-// The launch behind a search in mapped coordinates. What it found holds every pair, and some that only its coordinates
-// have: each is tested on the boxes as given, and kept where this pass is the one that keeps it.
+// The launch after a search in mapped coordinates. The search finds every pair, and some that overlap only in its
+// coordinates. So each found pair is tested on the boxes as given, and kept if it overlaps and belongs to this pass.
 #pragma once
 
 #include "gpu/broad/settle_view.hpp"
@@ -30,7 +30,8 @@ __device__ void settle_pairs(const Team& team, const SettleView& s, unsigned lon
   queue.flush();
 }
 
-// `shared`: a PairQueue a warp. An aborted search is settled as far as it was found, so that both needs are known.
+// `shared`: a PairQueue for each warp. If the search had too little room, those of its pairs that were stored are
+// settled anyway, so that the host learns how much room both lists need.
 __device__ inline void run_settle(const SettleView& view, unsigned char* shared) {
   const GridTeam grid(view.barrier);
   PairQueue& room = reinterpret_cast<PairQueue*>(shared)[threadIdx.x / 32];

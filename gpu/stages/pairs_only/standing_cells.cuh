@@ -1,7 +1,6 @@
-// Marks the coarse cells that standing boxes reach into, and tells whether a moving box shares one with any of them.
+// Marks the coarse cells that standing boxes reach into, and finds out whether a moving box reaches into a marked cell.
 //
-// Cells are found from corners by one function that never falls, so boxes that overlap share a cell, whatever it
-// rounds.
+// Corners become cells by one monotone function, so boxes that overlap share a cell, however the function rounds.
 #pragma once
 
 #include "gpu/broad/cross_view.hpp"
@@ -10,9 +9,9 @@
 
 namespace broadside::gpu {
 
-// Cells along x are bits of a word.
+// This many cells that follow each other in x are the bits of a word.
 constexpr int kCellsOfWord = 32;
-// A moving box that reaches over more cells along an axis is not worth the look.
+// A moving box that reaches over more cells than this along an axis is not looked up: it counts as near.
 constexpr int kMostCellsLookedAt = 4;
 
 __device__ inline int standing_cell(float v, float cells_per_m) {
@@ -26,7 +25,7 @@ __device__ inline std::uint32_t word_of(const StandingCells& cells, int word_x, 
   return (h ^ h >> 16) & cells.word_mask;
 }
 
-// Bits from `from` to `to` of the word that begins at cell `begin`.
+// The bits of cells `from` to `to` in the word that begins at cell `begin`.
 __device__ inline std::uint32_t bits_between(int begin, int from, int to) {
   const int low = max(from - begin, 0);
   const int high = min(to - begin, kCellsOfWord - 1);

@@ -1,5 +1,5 @@
-// Contacts of more bodies than there are threads, in the order of their keys. The thread that resolves the last contact
-// for which another one waits resolves that one next.
+// Resolves contacts in the order of their keys if there are more bodies than threads. When a thread resolves the last
+// contact that another contact waits for, it resolves that other contact next.
 #pragma once
 
 #include "gpu/frame/frame_view.hpp"
@@ -9,17 +9,18 @@
 
 namespace broadside::gpu {
 
-// Whether no contact of the body comes before the one of this rank. A body that is never written has no order.
+// Whether the contact of this rank is the body's first. The contacts of a body that is never written have no order.
 __device__ inline bool is_first(std::uint32_t rank) {
   return rank == 0 || rank == kNoRank;
 }
 
-// Which contacts may be resolved. In the memory of the keys, which are not needed once every contact has its ranks.
+// Which contacts may be resolved. It lies in the memory of the keys, which are not needed once every contact has its
+// ranks.
 struct Turns {
-  std::uint32_t* arrived;  // [contacts] whether one of its bodies has come to it; 0 at the start
+  std::uint32_t* arrived;  // [contacts] how many of its bodies have come to it; 0 at the start
   std::uint32_t* queue;    // [contacts] the work queue: 1 + a contact whose turn has come; 0: not yet
-  // Places of the queue that threads took, places that have a contact, and contacts done. They lie in different cache
-  // lines, as all warps write them.
+  // How many places of the queue threads took, how many got a contact, and how many contacts are done. They lie in
+  // different cache lines, because all warps write them.
   std::uint32_t* taken;
   std::uint32_t* given;
   std::uint32_t* done;
@@ -41,7 +42,7 @@ __device__ void start_turns(const Team& team, const Turns& turns, std::uint64_t 
   team.sync();
 }
 
-// Room for the warp's contacts in the queue, whose places never run out: a contact comes there once at most.
+// Puts the warp's contacts into the queue, which always has room, because a contact is queued at most once.
 __device__ inline void queue_turns(const Turns& turns, bool has_one, std::uint32_t contact) {
   const unsigned pushing = __ballot_sync(kFullWarp, has_one);
   if (pushing == 0) return;
@@ -52,8 +53,8 @@ __device__ inline void queue_turns(const Turns& turns, bool has_one, std::uint32
     *static_cast<volatile std::uint32_t*>(turns.queue + first + __popc(pushing & ((1U << lane()) - 1U))) = contact + 1;
 }
 
-// For a body whose contact of this rank is done: gets its next contact, if it has one. Returns whether that waited for
-// this body alone.
+// For a body whose contact of this rank is done: gets its next contact, if it has one. Returns whether that contact
+// waited only for this body.
 __device__ inline bool arrives(const FrameView& f, const Turns& turns, std::uint32_t body, std::uint32_t rank,
                                ListEntry& entry) {
   if (rank == kNoRank || rank + 1 == f.degree[body]) return false;
@@ -61,7 +62,7 @@ __device__ inline bool arrives(const FrameView& f, const Turns& turns, std::uint
   return is_first(entry.rank_other) || atomicAdd(&turns.arrived[entry.contact], 1U) == 1;
 }
 
-// The contact to which a body has come, as a link: the lower body first.
+// The contact that a body has come to, as a link with the lower body first.
 __device__ inline Link link_of(std::uint32_t body, std::uint32_t rank, const ListEntry& entry) {
   return body < entry.other ? Link{body, entry.other, rank, entry.rank_other}
                             : Link{entry.other, body, entry.rank_other, rank};
@@ -87,7 +88,7 @@ __device__ void resolve_link(const FrameView& f, const Live& live, std::uint32_t
   store_contact(f.contacts + place, contact);
 }
 
-// Queues all contacts that wait for no other: where threads begin.
+// Queues all contacts that wait for no other contact: threads begin with these.
 template <typename Team>
 __device__ void queue_first_turns(const Team& team, const FrameView& f, const Turns& turns, std::uint64_t count) {
   const std::uint64_t rounds = (count + team.size() - 1) / team.size();
@@ -98,8 +99,8 @@ __device__ void queue_first_turns(const Team& team, const FrameView& f, const Tu
   }
 }
 
-// Links have their final ranks. A lane without a contact takes a place of the queue and waits there, so that the lane
-// that waited longest gets the next contact.
+// Links must have their final ranks. A lane without a contact takes a place in the queue and waits for that place to be
+// filled, so that the lane that has waited longest gets the next contact.
 template <typename Team, typename Live>
 __device__ void resolve_by_arrival(const Team& team, const FrameView& f, std::uint64_t count, const Live& live) {
   constexpr std::uint32_t kNone = 0xFFFFFFFFU;
@@ -134,7 +135,7 @@ __device__ void resolve_by_arrival(const Team& team, const FrameView& f, std::ui
     if (busy == 0) {
       if (lane() == 0 && done != 0) atomicAdd(turns.done, done);
       done = 0;
-      // Seldom, because all warps load the same word; one lane decides, so that the warp stays together.
+      // Only every 16th time, because all warps load the same word. One lane decides, so that the warp stays together.
       if (++idle % kLooksBetween == 0) {
         const std::uint32_t by_all = *static_cast<volatile std::uint32_t*>(turns.done);
         if (__shfl_sync(kFullWarp, by_all, 0) == count) return;

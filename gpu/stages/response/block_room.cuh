@@ -1,4 +1,4 @@
-// What one block keeps in its shared memory while it resolves contacts alone, and how many fit.
+// The data that one block keeps in its shared memory while it resolves contacts alone, and how much fits.
 #pragma once
 
 #include <cstdint>
@@ -9,17 +9,17 @@
 
 namespace broadside::gpu {
 
-// A touching pair, and the places in which it came to each body's contacts. A body, a place: 16 bits.
+// A touching pair, and its place among the contacts of each body. A body and a place have 16 bits each.
 class BlockLink {
  public:
-  static constexpr std::uint32_t kNone = 0xFFFFU;  // of a body that is never written
+  static constexpr std::uint32_t kNone = 0xFFFFU;  // for a body that is never written
   struct Side {
     std::uint32_t body = 0;
     std::uint32_t place = kNone;
   };
 
   BlockLink() = default;
-  // A place of kNone or more means none.
+  // A place of kNone or more means that there is none.
   __device__ BlockLink(core::Pair p, std::uint32_t place_i, std::uint32_t place_j)
       : i_(p.i | min(place_i, kNone) << 16U), j_(p.j | min(place_j, kNone) << 16U) {}
 
@@ -34,8 +34,8 @@ class BlockLink {
   std::uint32_t j_ = 0;
 };
 
-// A ListEntry in one word, but for the shape: from the lowest bit on 13 for the contact, 9 for the other body, 9 for
-// the rank there, one that says who resolves.
+// A ListEntry, except the shape, in one word: from the lowest bit on, 13 bits for the contact, 9 for the other body, 9
+// for the rank there, and one that says which body's thread resolves.
 class BlockEntry {
  public:
   static constexpr std::uint32_t kMostContacts = 1U << 13;
@@ -59,7 +59,7 @@ class BlockEntry {
 };
 static_assert(ListEntry::kIsOurs == 1U << 31);
 
-// As in Counters, but of 32 bits: atomics on these are faster.
+// As in Counters, but with 32 bits, on which atomics are faster.
 struct alignas(16) BlockCounts {
   std::uint32_t touching = 0;
   std::uint32_t listed = 0;
@@ -80,7 +80,7 @@ class BlockDegree {
 };
 static_assert(BlockLink::kNone < 1U << 31);
 
-// The arrays, in memory on 16 bytes. Their meaning is that of FrameView's of the same names.
+// The arrays, aligned to 16 bytes. They mean the same as those of FrameView with the same names.
 struct BlockRoom {
   LiveBody* live;             // [bodies]
   BlockCounts* counts;        // [1]
@@ -102,7 +102,7 @@ struct BlockRoom {
     places = reinterpret_cast<std::uint16_t*>(list_begin + bodies);
   }
 
-  // Whether a block has the threads and the memory, and an entry the bits.
+  // Whether a block has enough threads and memory, and an entry enough bits.
   __device__ static bool fits(const FrameView& f, std::uint64_t pairs) {
     constexpr std::uint32_t kBytesOfBody = sizeof(LiveBody) + 2 * sizeof(std::uint32_t);
     constexpr std::uint32_t kBytesOfPair =

@@ -1,5 +1,5 @@
-// Response and faces of a small number of contacts, by one block alone: METHOD sections 3 to 6. All that its threads
-// share is in shared memory, where an atomic takes a tenth of the time that it takes in the L2 cache.
+// Response and faces of few contacts, by one block alone: METHOD sections 3 to 6. All that its threads share is in
+// shared memory, where an atomic takes a tenth of the time that it takes in the L2 cache.
 #pragma once
 
 #include "core/method/coloring.hpp"
@@ -28,7 +28,7 @@ class ListInBlock {
   std::uint32_t degree_;
 };
 
-// The touching pairs become links, as in order_stage.cuh. `narrow`: the thread's first pair.
+// Makes links of the touching pairs, as order_stage.cuh does. `narrow`: the thread's first pair.
 __device__ inline void collect_in_block(const FrameView& f, NarrowPair narrow, const NarrowPairs& pairs,
                                         const BlockRoom& room) {
   for (std::uint64_t base = 0; base < pairs.count; base += blockDim.x) {
@@ -42,7 +42,7 @@ __device__ inline void collect_in_block(const FrameView& f, NarrowPair narrow, c
   }
 }
 
-// Each body's list. Two threads a contact, one for each of its bodies.
+// Makes each body's list, with two threads for each contact, one for each of its bodies.
 __device__ inline void list_in_block(const FrameView& f, std::uint32_t count, const BlockRoom& room) {
   const bool is_body = threadIdx.x < f.body_count;
   const std::uint32_t begin =
@@ -79,8 +79,8 @@ __device__ inline void list_in_block(const FrameView& f, std::uint32_t count, co
   }
 }
 
-// By all threads of one block, for bodies and pairs that fit `room`, which has the counts afterwards. Calls `ended`
-// when contacts are resolved.
+// Called by all threads of one block, for bodies and pairs that fit `room`, which has the counts afterwards. Calls
+// `ended` when contacts are resolved.
 template <typename Ended>
 __device__ void resolve_in_block(const FrameView& f, const NarrowPairs& pairs, const BlockRoom& room,
                                  const Ended& ended) {

@@ -11,14 +11,14 @@
 
 namespace broadside::gpu {
 
-// What a contact needs of a body that does not change during a frame.
+// What a contact needs of a body and what does not change during a frame.
 struct ContactSide {
   core::Box local_box;
   float inverse_mass = 0.0F;
 };
 
-// Geometry and response of one pair from these states. Returns false when the boxes do not overlap any more; post
-// states are then the pre states.
+// Geometry and response of one pair from these states. Returns false if the boxes no longer overlap; then the post
+// states are the pre states.
 __device__ inline bool fill_contact(const FrameView& f, core::Pair p, std::uint32_t color, const core::Material& both,
                                     const ContactSide& a, const ContactSide& b, const core::Kinematics& state_a,
                                     const core::Kinematics& state_b, core::Contact& contact) {
@@ -35,9 +35,9 @@ __device__ inline bool fill_contact(const FrameView& f, core::Pair p, std::uint3
   return true;
 }
 
-// Live bodies: threads read them while others write. A reader sees from the two words alone whether they are of one
-// moment, so waiting for a contact's turn costs one round trip to memory. Words: GridWords or BlockWords, for the
-// memory in which they lie.
+// Live bodies: threads read them while other threads write them. The two words of a body are enough for a reader to see
+// whether they were written together, so waiting for a contact's turn costs one round trip to memory. Words: GridWords
+// or BlockWords, depending on the memory in which the bodies lie.
 template <typename Words>
 struct LiveBodies {
   LiveBody* bodies;
@@ -49,7 +49,7 @@ struct LiveBodies {
     memcpy(&out, both, sizeof out);
     return out;
   }
-  // Whether what was fetched is the state after `rank` contacts; of a body that is never written, it always is.
+  // Whether what was fetched is the state after `rank` contacts; always true for a body that is never written.
   __device__ static bool is_at(const LiveBody& b, std::uint32_t rank) {
     return rank == kNoRank || (b.done == rank && ((b.tag ^ rank) & 1U) == 0);
   }
@@ -64,7 +64,7 @@ struct LiveBodies {
 using GridLive = LiveBodies<GridWords>;    // in global memory, seen by the whole grid
 using BlockLive = LiveBodies<BlockWords>;  // in one block's shared memory
 
-// What a contact of this rank and color leaves of a body.
+// A body after its contact of this rank and color.
 __device__ inline LiveBody live_after(std::uint32_t rank, const core::Kinematics& s, std::uint32_t color) {
   return {s.x, rank + 1, s.v, (color + 1) << 1 | ((rank + 1) & 1U)};
 }
@@ -76,7 +76,7 @@ __device__ void start_live(const Team& team, const FrameView& f, const Live& liv
   }
 }
 
-// The lists of contacts in global memory, one body's.
+// One body's list of contacts in global memory.
 class ListInMemory {
  public:
   __device__ ListInMemory(const FrameView& f, std::uint32_t body)
@@ -94,8 +94,8 @@ __device__ inline ContactSide contact_side(const FrameView& f, std::uint32_t bod
   return {local_box(f, body), f.previous.position[body].w};
 }
 
-// One body's walk through its list. Of a contact's two written bodies, the one that a hash of the ids chooses resolves
-// it, when it is the next contact of both; the other skips it.
+// One body's way through its list. If both bodies of a contact are written, a hash of their ids chooses one of them:
+// that body's thread resolves the contact once it is the next contact of both, and the other body's thread skips it.
 template <typename Live, typename List>
 class BodyTurn {
  public:
@@ -103,7 +103,7 @@ class BodyTurn {
                       const ContactSide& own_side)
       : f_(f), live_(live), body_(body), list_(list), own_side_(own_side) {}
 
-  // All that this body resolves, each when its turn has come.
+  // Resolves all contacts that are this body's to resolve, each when its turn has come.
   __device__ void resolve_all() {
     seek(0);
     while (rank_ != list_.degree()) {
@@ -115,7 +115,7 @@ class BodyTurn {
   }
 
  private:
-  // To the next contact that this body resolves.
+  // Goes on to the next contact that this body resolves.
   __device__ void seek(std::uint32_t rank) {
     for (rank_ = rank; rank_ < list_.degree(); ++rank_) {
       entry_ = list_.at(rank_);
@@ -129,9 +129,9 @@ class BodyTurn {
     }
   }
 
-  // Resolves the contact if its turn has come. From then on no other thread writes the body itself, so it is loaded
-  // once. Both bodies are loaded before either is tested. The other is loaded again each time, as there are no
-  // registers for it.
+  // Resolves the contact if its turn has come. Once the body itself has come to this contact, no other thread writes
+  // it, so it is not loaded again. Both bodies are loaded before either is tested. The other body is loaded again each
+  // time, because there are no registers to keep it.
   __device__ bool try_resolve() {
     if (!has_own_) own_ = live_.fetch(body_);
     const LiveBody other = live_.fetch(entry_.other);
@@ -151,7 +151,7 @@ class BodyTurn {
     return true;
   }
 
-  // Chosen word by word: the compiler would put two whole objects into local memory.
+  // Chooses word by word, because otherwise the compiler would put both objects into local memory.
   __device__ static core::Vec3 chosen(bool first, core::Vec3 p, core::Vec3 q) {
     return {first ? p.x : q.x, first ? p.y : q.y, first ? p.z : q.z};
   }
@@ -179,20 +179,20 @@ class BodyTurn {
   bool has_own_ = false;
 };
 
-// All contacts in the order of their keys, without a barrier: a contact waits for the earlier ones of its own bodies
-// and for nothing else. No more bodies than threads, one each; every thread of the team is resident, so a
-// thread always comes to the first contact that is left.
+// Resolves all contacts in the order of their keys, without a barrier: a contact waits only for the earlier contacts of
+// its own bodies. There must be at least as many threads as bodies, and each takes one body. Every thread of the team
+// is resident, so the first contact that is left always has a thread that comes to it.
 template <typename Team, typename Live>
 __device__ void resolve_by_looking(const Team& team, const FrameView& f, const Live& live) {
-  // If there are enough warps, bodies of neighboring ids go to different warps; otherwise to neighboring lanes, whose
-  // words lie side by side.
+  // If there are enough warps, bodies with neighboring ids go to different warps; otherwise to neighboring lanes, so
+  // that their words lie side by side.
   const std::uint64_t body = std::uint64_t{f.body_count} * 2 <= team.size() ? team.lonely_rank() : team.spread_rank();
   if (body >= f.body_count) return;
   const auto own = static_cast<std::uint32_t>(body);
   BodyTurn(f, live, own, ListInMemory(f, own), contact_side(f, own)).resolve_all();
 }
 
-// The states that the contacts left become the next ones; colors are counted.
+// Makes the states that contacts left the next states, and counts colors.
 template <typename Team, typename Live>
 __device__ void finish_live(const Team& team, const FrameView& f, const Live& live) {
   const std::uint64_t rounds = (f.body_count + team.size() - 1) / team.size();
@@ -218,7 +218,8 @@ __device__ inline bool fill_from_next(const FrameView& f, const Link& link, core
                       {f.next.position[link.j].v, f.next.velocity[link.j].v}, contact);
 }
 
-// E8: all contacts at once. They overwrite each other's results, in whatever order the hardware runs them.
+// E8: all contacts at once. They overwrite each other's results, in the order in which the hardware happens to run
+// them.
 template <typename Team>
 __device__ void resolve_racing(const Team& team, const FrameView& f, std::uint64_t count) {
   for (std::uint64_t k = team.rank(); k < count; k += team.size()) {
@@ -235,8 +236,8 @@ __device__ void resolve_racing(const Team& team, const FrameView& f, std::uint64
   team.sync();
 }
 
-// Plain accumulation: every contact sees the state before any response; each body adds up its changes in the order of
-// its pairs.
+// Plain accumulation: every contact starts from the state before any response, and each body adds up its changes in the
+// order of its pairs.
 template <typename Team>
 __device__ void resolve_jacobi(const Team& team, const FrameView& f, std::uint64_t count) {
   for (std::uint64_t k = team.rank(); k < count; k += team.size()) {

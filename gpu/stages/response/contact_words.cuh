@@ -1,4 +1,4 @@
-// A contact to and from global memory, in words of 16 bytes: nine instead of thirty-six.
+// Stores and loads a contact in global memory by words of 16 bytes: nine accesses instead of thirty-six.
 #pragma once
 
 #include <cstring>
@@ -18,8 +18,8 @@ __device__ inline void store_contact(core::Contact* to, const core::Contact& con
   for (std::size_t w = 0; w < kContactWords; ++w) reinterpret_cast<uint4*>(to)[w] = words[w];
 }
 
-// Read once, and first to leave the cache: so these loads do not evict what the frame left there and is still to be
-// read.
+// For contacts that are read once: they are the first to be evicted from the cache, so that these loads do not evict
+// what the frame left there and is still to be read.
 __device__ inline core::Contact load_contact_once(const core::Contact* from) {
   uint4 words[kContactWords];
 #pragma unroll

@@ -1,5 +1,5 @@
-// Contacts of a frame, then faces of the domain, and the ends of both stages: by one block in its shared memory, or by
-// a team in global memory.
+// Resolves the contacts of a frame, then faces of the domain, and marks the ends of both stages: by one block in its
+// shared memory, or by a team in global memory.
 #pragma once
 
 #include "gpu/frame/frame_view.hpp"
@@ -13,8 +13,8 @@
 
 namespace broadside::gpu {
 
-// By all threads of one block, for bodies and pairs that fit `room`. `counters`, in the block's shared memory, gets
-// what these stages count; its first thread may read it afterwards.
+// Called by all threads of one block, for bodies and pairs that fit `room`. `counters`, in the block's shared memory,
+// gets what these stages count; the block's first thread may read it afterwards.
 __device__ inline void resolve_alone(const FrameView& f, const NarrowPairs& pairs, const BlockRoom& room,
                                      Counters& counters) {
   const BlockTeam team;
@@ -26,7 +26,7 @@ __device__ inline void resolve_alone(const FrameView& f, const NarrowPairs& pair
   counters.colors = room.counts->colors;
 }
 
-// By all threads of a team. `resolve`: called with the number of touching pairs, if there are any.
+// Called by all threads of a team. `resolve` is called with the number of touching pairs, if there are any.
 template <typename Team, typename Resolve>
 __device__ void resolve_by_team(const Team& team, const FrameView& f, const NarrowPairs& pairs,
                                 const Resolve& resolve) {
@@ -40,7 +40,7 @@ __device__ void resolve_by_team(const Team& team, const FrameView& f, const Narr
   mark_end(team, f.outcome, core::Stage::kFaces);
 }
 
-// Resolves `count` contacts by a thread for each body, which waits for the body's turn at each of them.
+// Resolves `count` contacts with a thread for each body, which waits at each contact for the body's turn.
 template <typename Team, typename Live>
 __device__ void resolve_body_by_body(const Team& team, const FrameView& f, std::uint64_t count, const Live& live) {
   start_live(team, f, live);

@@ -9,13 +9,13 @@
 
 namespace broadside::gpu {
 
-// Printed form E3 moves static bodies, which is the point of it.
+// The error E3 is that static bodies move, so in that variant they are written too.
 __device__ inline bool is_written(const FrameView& f, std::uint32_t body) {
   return !is_static(f, body) || f.variant == core::Variant::kE3;
 }
 
-// The touching pairs become links. Each written body's contacts are counted; a link's ranks are, for now, the places in
-// which they came.
+// Makes links of the touching pairs and counts each written body's contacts. Until list_contacts(), a link's ranks are
+// its places among these contacts as they came.
 template <typename Team>
 __device__ void collect_touching(const Team& team, const FrameView& f, const NarrowPairs& pairs) {
   const std::uint64_t rounds = (pairs.count + team.size() - 1) / team.size();
@@ -35,7 +35,7 @@ __device__ void collect_touching(const Team& team, const FrameView& f, const Nar
   }
 }
 
-// The colored solver's order, and the Jacobi solver's order of addition.
+// The key by which the colored solver orders contacts, or the Jacobi solver the terms of its sums.
 __device__ inline unsigned long long order_key(const FrameView& f, const Link& link) {
   const core::Pair p{link.i, link.j};
   return f.solver == Solver::kJacobi ? core::pair_key(p) : core::color_priority(p);
@@ -49,8 +49,8 @@ __device__ inline std::uint32_t keys_before(const unsigned long long* keys, std:
   return before;
 }
 
-// Whether body i's thread resolves a contact of these ranks: the body that alone is written does; of two, a hash of the
-// ids chooses.
+// Whether body i's thread resolves a contact with these ranks. If only one body is written, its thread does; if both
+// are, a hash of the ids chooses.
 __device__ inline bool is_resolved_by_i(core::Pair p, std::uint32_t rank_i, std::uint32_t rank_j) {
   return rank_j == kNoRank || (rank_i != kNoRank && ((p.i * 0x9E3779B1U ^ p.j * 0x85EBCA6BU) >> 31) != 0);
 }

@@ -1,5 +1,5 @@
-// Nearest vertices of one pair of bodies where one of them has cells of near vertices: the other's vertices that come
-// into question are looked up there. P(7) and P(8).
+// Nearest vertices of one pair of bodies of which one has cells of near vertices: vertices of the other body that may
+// be near are looked up in these cells. P(7) and P(8).
 #pragma once
 
 #include "core/method/proximity.hpp"
@@ -10,8 +10,8 @@
 
 namespace broadside::gpu {
 
-// Which body's vertices are looked up in the cells of the other. No cells: neither shape has them, or bodies are so far
-// from the origin that lists may be wrong.
+// Which body's vertices are looked up (it asks) in the cells of which (it answers). has_cells is false if neither shape
+// has cells, or if bodies are so far from the origin that lists may be wrong.
 struct CellRoles {
   bool has_cells = false;
   bool is_asked_by_j = false;
@@ -26,23 +26,24 @@ __device__ inline CellRoles cell_roles(const FrameView& f, const ShapeHeaders& h
                                               fmaxf(fmaxf(fabsf(xj.x), fabsf(xj.y)), fabsf(xj.z)));
   const bool i_answers = far <= of_i.range_m;
   const bool j_answers = far <= of_j.range_m;
-  // The body of fewer vertices asks.
+  // If both can answer, the body with fewer vertices asks.
   const bool is_asked_by_j = i_answers && (!j_answers || headers.trees[bodies.j.shape].node_count[0] <
                                                              headers.trees[bodies.i.shape].node_count[0]);
   return {i_answers || j_answers, is_asked_by_j};
 }
 
-// A warp takes two nodes of kRunVertices vertices at a time, each lane two vertices of either. Shapes with cells have
-// at most 128 such nodes.
+// A run is a node of kRunVertices vertices. A warp takes two runs at a time, and each lane two vertices of each. Shapes
+// with cells have at most 128 runs.
 constexpr std::uint32_t kRunLevel = 1;
 constexpr std::uint32_t kRunVertices = kLeafVertices * kFanOut;
 static_assert(kRunVertices == 64, "two a lane");
 
-// As TreePair, with another way to the nearest: the asking body's vertices whose box is near the answering body's are
-// looked up in its cells; those that find something near enough wait until a lane each has one.
+// As TreePair, with another way to find the nearest. Vertices of the asking body whose run's box is near the answering
+// body's box are looked up in the answering body's cells. Vertices whose cell may have something near enough wait in a
+// queue until there is one for each lane.
 //
-// `kLoadsAlways`: lanes without work load too, so that the loads of a warp go out together and it waits once. In grid
-// frames other warps hide that wait, and superfluous loads cost more than they save.
+// `kLoadsAlways`: lanes without work load too, so that all loads of a warp are issued together and it waits once. In
+// grid frames other warps hide that wait, and superfluous loads cost more than they save.
 template <bool kLoadsAlways>
 class NearestByCells {
  public:
@@ -63,7 +64,8 @@ class NearestByCells {
     const float theta_m = core::pair_theta_m(f.parameters, tree_.mean_edge_m, other_tree_.mean_edge_m);
     theta2_ = theta_m * theta_m;
     const core::Vec3 at = cells_.quanta_per_m * ((x_ - other_x_) - cells_.low);
-    // Rounded to the middle, as vertices are rounded down. What is clamped leaves all vertices outside.
+    // Rounded up, because vertices are rounded down: so the sum is off by at most one quantum either way. An origin
+    // that is clamped leaves all vertices outside the cells.
     const auto origin = [&](float place, std::uint32_t count) {
       const auto most = static_cast<int>(count << cells_.shift);
       return static_cast<std::uint32_t>(min(max(floor_to_int(place) + 1, -cells_.reach), most + cells_.reach)) &
@@ -80,9 +82,9 @@ class NearestByCells {
     last_ = tree_.node_count[0] * kLeafVertices - 1;
   }
 
-  // Each lane's nearest.
+  // Returns each lane's nearest vertices.
   __device__ core::Proximity find() {
-    // A tree without runs is one: its root's box is the body's, which is near the other's.
+    // A tree without nodes of that level is itself one run, whose box is the root's.
     const std::uint32_t level = min(kRunLevel, tree_.top);
     const std::uint32_t runs = tree_.node_count[level];
     const PackedBox* root = f_.shapes.tree_nodes + other_tree_.node_begin[other_tree_.top];
@@ -113,20 +115,21 @@ class NearestByCells {
  private:
   __device__ float limit() const { return __uint_as_float(*static_cast<volatile std::uint32_t*>(bound_)); }
 
-  // The cell that has a vertex of this place in quanta. Those at the rim are empty, so what lies outside may count as
-  // there.
+  // The cell that has a vertex at this place in quanta. Cells at the rim are empty, so vertices outside the cells may
+  // count as being there.
   __device__ std::uint32_t cell_of(std::uint32_t xy, std::uint32_t z) const {
     const std::uint32_t at_xy = clamped_sums(xy, origin_xy_, most_xy_);
     const std::uint32_t at_z = clamped_sums(z, origin_z_, most_z_);
     return cell_index((at_xy & 0xFFFFU) >> shift_, at_xy >> 16U >> shift_, at_z >> shift_, stride_y_, stride_z_);
   }
 
-  // Two vertices a lane of one run, or of two. Lanes side by side have vertices side by side.
+  // Looks up two vertices a lane, of one run or of two. Neighboring lanes have neighboring vertices.
   __device__ void look_up(std::uint32_t one, bool are_two, std::uint32_t other) {
     const float now = limit();
     if (now != limit_) {
       limit_ = now;
-      // In whole steps, rounded up and one more: what the lists allow for roundings is less than a step.
+      // The limit in whole steps, rounded up, and one more, because what the lists allow for rounding is less than a
+      // step.
       const float steps = sqrtf(now) / cells_.lower_step_m;
       most_ = steps < 253.0F ? static_cast<std::uint32_t>(floor_to_int(steps)) + 1U : 254U;
     }
@@ -136,7 +139,7 @@ class NearestByCells {
     uint2 place[4];
 #pragma unroll
     for (std::uint32_t k = 0; k < 4; ++k) {
-      // The last run may be short: lanes past its end take its last vertex again.
+      // The last run may be short: lanes past its end take its last vertex.
       vertex[k] = min((k < 2 ? one : other) * kRunVertices + k % 2 * 32 + lane(), last_);
       place[k] = *reinterpret_cast<const uint2*>(quantized_ + vertex[k]);
     }
@@ -178,8 +181,8 @@ class NearestByCells {
     take(second_d2, own_id, second.w);
   }
 
-  // The last `count` of the waiting vertices, up to 32, with the lists of their cells: the more lanes for each the
-  // fewer there are. What takes the time is waiting for what a list names.
+  // Measures the last `count` of the waiting vertices, up to 32, against the lists of their cells. The fewer vertices
+  // there are, the more lanes each gets, because waiting for the vertices that a list names is what takes the time.
   __device__ void visit(std::uint32_t count) {
     waiting_ -= count;
     const auto shift =
@@ -233,25 +236,25 @@ class NearestByCells {
   const QuantizedVertex* quantized_;
   core::Vec3 x_;
   core::Vec3 other_x_;
-  // Of the asking body's coordinates, and the last place, in quanta.
+  // In quanta: the origin of the asking body's coordinates, and the last place of the cells.
   std::uint32_t origin_xy_ = 0;
   std::uint32_t origin_z_ = 0;
   std::uint32_t most_xy_ = 0;
   std::uint32_t most_z_ = 0;
-  // Of the cells, as they are looked up again and again.
+  // Fields of the cells that are used again and again.
   std::uint32_t shift_ = 0;
   std::uint32_t stride_y_ = 0;
   std::uint32_t stride_z_ = 0;
   const std::uint8_t* lower_ = nullptr;
-  std::uint32_t last_ = 0;  // of the vertices
+  std::uint32_t last_ = 0;  // the last vertex
   bool is_asked_by_j_;
   SearchStack queue_;
-  std::uint32_t waiting_ = 0;  // vertices in the queue: below 32, and 128 more
+  std::uint32_t waiting_ = 0;  // vertices in the queue: below 32, and up to 128 more after a look-up
   std::uint32_t* bound_;
   WarpShare share_;
   float theta2_ = 0.0F;
   float limit_ = INFINITY;
-  std::uint32_t most_ = 254;  // of `lower`, for limit_
+  std::uint32_t most_ = 254;  // the largest `lower` that is near enough for limit_
   core::Proximity best_;
 };
 

@@ -1,5 +1,5 @@
-// Leftover work: a team that has searched a pair for some rounds leaves what remains to the whole grid, most of which
-// is idle.
+// Leftover work: a team that has searched a pair for some rounds leaves the rest to the whole grid, because most of the
+// grid is idle by then.
 #pragma once
 
 #include "gpu/frame/divisor.hpp"
@@ -12,18 +12,18 @@
 
 namespace broadside::gpu {
 
-// The most leftovers that there can be in one turn: each gets a block or more.
+// The most leftovers that one turn can have, so that each gets at least one block.
 __device__ inline std::uint32_t most_leftovers() {
   return min(LeftoverView::kMost, gridDim.x);
 }
 
-// Hands over what a team has left of pair k, after `rounds` rounds or, if there was no room, after as many again. The
-// pair may be rejected by its levels meanwhile; the grid then searches it in vain, which is fast, as its bodies are
-// apart.
+// Hands over the work that a team has left for pair k after `rounds` rounds. If there is too much or too little to hand
+// over, it tries again after as many rounds. The levels may reject the pair meanwhile: then the grid searches it in
+// vain, which is fast, because its bodies are apart.
 class LeftoverOfPair {
  public:
-  // `to`: room for the leftovers of this turn; `before`: how many there were in earlier turns. `place`: a word
-  // of the team in shared memory.
+  // `to`: room for the leftovers of this turn. `before`: how many there were in earlier turns. `place`: a word of the
+  // team's in shared memory.
   __device__ LeftoverOfPair(const FrameView& f, const LeftoverView& to, std::uint32_t before, const PlacedPair& bodies,
                             std::uint64_t k, std::uint32_t rounds, std::uint32_t* place)
       : f_(f),
@@ -42,7 +42,7 @@ class LeftoverOfPair {
     return true;
   }
 
-  // By all warps of the team. Returns whether the work was handed over, so that the search ends.
+  // Called by all warps of the team. Returns whether the work was handed over: if so, the search ends.
   __device__ bool hand_over(const SearchTeam& team, const TeamCounts& left, float limit) {
     if (is_refused_ || left.nodes + left.leaves > LeftoverView::kEntries) return false;
     const bool is_first = team.member == 0 && lane() == 0;
@@ -84,11 +84,11 @@ struct NoLeftover {
   }
 };
 
-// A block's part of one of `count` leftovers: every n-th entry, if n blocks share it. Entries that were added last to
-// the stack come last here too.
+// A block's part of one of `count` leftovers: every n-th entry, if n blocks share it. The order of entries is kept, so
+// those that were added to the stack last come last here too.
 class LeftoverPart {
  public:
-  // By all threads of a block, which are the team; a barrier of the block must follow.
+  // Called by all threads of a block, which are the team; a barrier of the block must follow.
   __device__ LeftoverPart(const LeftoverView& leftovers, std::uint32_t count, const SearchTeam& team) {
     const FloatDivisor by_count(count);
     const std::uint32_t part = by_count.quotient(blockIdx.x);
@@ -98,7 +98,7 @@ class LeftoverPart {
     const auto up_to = [&](std::uint32_t end) { return end > part ? by_parts.rounded_up(end - part) : 0U; };
     const NodePair* entries = leftovers.entries + rank * LeftoverView::kEntries;
     leftover_ = fetched(leftovers.items + rank);
-    // The first entries are loaded together with their count: one wait.
+    // The first entries are loaded together with their count, so that the thread waits once.
     std::uint32_t k = threadIdx.x;
     NodePair entry;
     if (part + k * parts < LeftoverView::kEntries) entry = entries[part + k * parts];
@@ -119,7 +119,8 @@ class LeftoverPart {
   TeamCounts own_;
 };
 
-// Writes `found` to the pair's result if it is nearer; other threads may do the same at the same time. By one thread.
+// Writes `found` to the pair's result if it is nearer. Called by one thread of a block, while other blocks may do the
+// same.
 __device__ inline void improve(MeasuredPair* pair, const core::Proximity& found) {
   auto* word = reinterpret_cast<uint4*>(pair);
   uint4 seen = GridWords::load_whole(word);

@@ -1,5 +1,5 @@
-// The pairs of the narrow phase: the vertex stage, if there is one, finds their nearest vertices, and the response
-// collects those that touch.
+// The pairs of the narrow phase. The vertex stage, if there is one, finds their nearest vertices; the response collects
+// the pairs that touch.
 #pragma once
 
 #include "core/method/proximity.hpp"
@@ -11,14 +11,14 @@
 
 namespace broadside::gpu {
 
-// The confirmed pairs; or, where levels are left, all that level 0 found.
+// The confirmed pairs or, if levels are left, all pairs that level 0 found.
 struct NarrowPairs {
   const core::Pair* items = nullptr;
   std::uint64_t count = 0;
-  // Levels are left for the vertex stage: other warps test them while vertices are searched. Pairs that are not
-  // rejected are the confirmed ones; they are in no list before list_measured().
+  // True if levels are left for the vertex stage: other warps test them while vertices are searched. Pairs that are not
+  // rejected are the confirmed ones; only list_measured() makes a list of them.
   bool are_levels_left = false;
-  // In small frames with a vertex stage: the result of each. Other frames write f.proximity.
+  // In small frames with a vertex stage: the result of each pair. Other frames write f.proximity.
   MeasuredPair* measured = nullptr;
   PlacedPair* placed = nullptr;  // in small frames: where their bodies are; null in others
 
@@ -28,7 +28,7 @@ struct NarrowPairs {
     return {placed_shape(f, pair.i), placed_shape(f, pair.j)};
   }
 
-  // By one thread.
+  // Stores the result of pair k. Called by one thread.
   __device__ void tell(const FrameView& f, std::uint64_t k, const core::Proximity& nearest) const {
     if (measured == nullptr)
       f.proximity[k] = nearest;
@@ -39,7 +39,7 @@ struct NarrowPairs {
   }
 };
 
-// One of them. The constructor loads all of its words, so that a thread waits once.
+// One of these pairs. The constructor loads all of its words, so that a thread waits once.
 class NarrowPair {
  public:
   __device__ NarrowPair(const FrameView& f, const NarrowPairs& pairs, std::uint64_t k) : exists_(k < pairs.count) {
@@ -64,9 +64,9 @@ class NarrowPair {
   MeasuredPair measured_;
 };
 
-// In small frames: copies results to f.proximity, in the order of f.confirmed; where levels were left, lists the
-// confirmed pairs first. Only the host reads these lists, so a block does it that has nothing else to do. `listed`: in
-// its shared memory.
+// In small frames: copies results to f.proximity, in the order of f.confirmed; if levels were left, it first lists the
+// confirmed pairs. Only the host reads these lists, so a block does this that has nothing else to do. `listed`: a word
+// of the block's shared memory.
 __device__ inline void list_measured(const FrameView& f, const NarrowPairs& pairs, std::uint32_t* listed) {
   if (threadIdx.x == 0) *listed = 0;
   __syncthreads();

@@ -1,4 +1,4 @@
-// Nearest vertices of each pair, P(7) and P(8): how pairs are dealt out to warps.
+// Finds the nearest vertices of each pair, P(7) and P(8): this file deals pairs out to warps.
 #pragma once
 
 #include "core/method/proximity.hpp"
@@ -13,9 +13,9 @@
 
 namespace broadside::gpu {
 
-constexpr std::uint32_t kMaxBlockWarps = 16;  // so that each of their teams has a barrier
+constexpr std::uint32_t kMaxBlockWarps = 16;  // so that each team has a barrier of its own
 
-// Shared memory of a block: what the warps of one pair share.
+// What the warps of one pair share, in the block's shared memory.
 struct ProximityScratch {
   static constexpr unsigned long long kNoVertices = ~0ULL;
 
@@ -24,7 +24,7 @@ struct ProximityScratch {
   TeamCounts counts[kMaxBlockWarps][kTeamTurns];
   std::uint32_t place[kMaxBlockWarps];
 
-  // By all threads; a barrier of the block must follow before teams search.
+  // Called by all threads. A barrier of the block must follow before teams search.
   __device__ void clear() {
     const std::uint32_t warp = threadIdx.x / 32;
     if (lane() != 0) return;
@@ -34,14 +34,14 @@ struct ProximityScratch {
   }
 };
 
-// The stack of `count` neighboring warps, as one.
+// The stacks of `count` neighboring warps, joined to one.
 __device__ inline SearchStack stack_of_warps(const FrameView& f, void* stacks, std::uint32_t first,
                                              std::uint32_t count) {
   const std::uint32_t each = f.stack_entries;
   return {static_cast<std::uint32_t*>(stacks) + std::uint64_t{first} * each * 3, count * each, count * each};
 }
 
-// For frames whose levels were tested before; otherwise SmallLevels.
+// For frames whose levels were tested before; other frames use SmallLevels.
 struct NoLevels {
   static constexpr bool kIsSmallFrame = false;
   using View = FrameView;
@@ -60,8 +60,8 @@ class ProximityStage {
                             ProximityScratch& scratch, void* stacks)
       : f_(f), headers_(headers), levels_(levels), pairs_(pairs), scratch_(scratch), stacks_(stacks) {}
 
-  // When there are fewer pairs than warps, several warps of a block share a pair. Where levels are left, one warp for
-  // each pair is kept free to test them. The block's warps are a power of two.
+  // If there are fewer pairs than warps, several warps of a block share a pair. If levels are left, one warp for each
+  // pair is kept free to test them. The number of a block's warps is a power of two.
   __device__ void run() const {
     const std::uint32_t warps = blockDim.x / 32;
     const std::uint32_t all_warps = gridDim.x * warps;
@@ -80,8 +80,8 @@ class ProximityStage {
     if (looks) levels_.end();
   }
 
-  // In small frames: the whole grid shares the work that teams left, until none leaves any more.
-  // `sync`: the barrier of the grid; returns SmallCounts since the frame began.
+  // In small frames: the whole grid shares the work that teams left, until no more is left. `sync`: the barrier of the
+  // grid; returns SmallCounts since the frame began.
   template <typename Sync>
   __device__ void share_leftovers(const Sync& sync) const {
     std::uint32_t before = 0;
@@ -97,8 +97,8 @@ class ProximityStage {
  private:
   using Cells = NearestByCells<Levels::kIsSmallFrame>;
 
-  // How many warps a pair has, as a power of two: the largest of which there are enough for so many pairs, at most a
-  // block's.
+  // How many warps a pair gets, as a power of two: as many as the warps allow for this many pairs, but at most all of a
+  // block.
   __device__ static std::uint32_t shift_of_members(std::uint32_t pairs, std::uint32_t warps,
                                                    std::uint32_t block_warps) {
     if (warps < pairs) return 0;
@@ -107,8 +107,8 @@ class ProximityStage {
     return min(shift, 31U - __clz(static_cast<int>(block_warps)));
   }
 
-  // A warp a pair. Pairs take very unequal times, so a warp takes new ones when it is done with its own; several at
-  // once where there are very many, because all warps take from one counter.
+  // A warp for each pair. Pairs take very different times, so a warp takes new pairs when it has finished its own. If
+  // there are very many, it takes several at once, because all warps take them from one counter.
   __device__ void measure_by_warps() const {
     const std::uint64_t warps = std::uint64_t{gridDim.x} * (blockDim.x / 32);
     const std::uint64_t share = max(std::uint64_t{1}, min(std::uint64_t{8}, pairs_.count / (warps * 32)));
@@ -134,7 +134,7 @@ class ProximityStage {
     }
   }
 
-  // How many pairs were given out to warps.
+  // The counter of pairs that were given out to warps.
   __device__ unsigned long long* given_out() const {
     if constexpr (Levels::kIsSmallFrame)
       return f_.given_out;
@@ -142,7 +142,8 @@ class ProximityStage {
       return &f_.counters->measured;
   }
 
-  // There are as many teams as pairs, or more. Where levels are left, warps of teams without a pair test them.
+  // A team for each pair; there must be at least as many teams as pairs. If levels are left, warps of teams without a
+  // pair test them.
   __device__ void measure_by_teams(std::uint32_t shift) const {
     const std::uint32_t warp = threadIdx.x / 32;
     const std::uint32_t team = warp >> shift;
@@ -166,7 +167,7 @@ class ProximityStage {
     if (share.member == 0 && lane() == 0 && k < pairs_.count) pairs_.tell(f_, k, nearest_of_team(team));
   }
 
-  // This block's part of what was handed over: all its warps are one team.
+  // Searches this block's part of the work that was handed over, with all warps of the block as one team.
   __device__ void search_part(const LeftoverView& leftovers, std::uint32_t count, const LeftoverView& to,
                               std::uint32_t before) const {
     const std::uint32_t warp = threadIdx.x / 32;
@@ -190,13 +191,13 @@ class ProximityStage {
       improve(f_.measured + leftover.k, nearest_of_team(0));
   }
 
-  // By all lanes of a team, after a barrier behind its search: the bound is the least distance then, and the lanes that
-  // found it name their vertices.
+  // Called by all lanes of a team, after a barrier that follows its search. By then the bound is the least distance,
+  // and the lanes that found it store their vertices.
   __device__ void tell_team(std::uint32_t team, const core::Proximity& best) const {
     if (best.is_touching() && __float_as_uint(best.squared_distance_m2) == scratch_.bound[team])
       atomicMin(&scratch_.nearest[team], static_cast<unsigned long long>(best.vertex_a) << 32 | best.vertex_b);
   }
-  // After a barrier of the block behind tell_team().
+  // The team's result; a barrier of the block must lie between tell_team() and this.
   __device__ core::Proximity nearest_of_team(std::uint32_t team) const {
     const unsigned long long vertices = scratch_.nearest[team];
     if (vertices == ProximityScratch::kNoVertices) return {};
@@ -204,7 +205,7 @@ class ProximityStage {
             static_cast<std::uint32_t>(vertices)};
   }
 
-  // These two return each lane's nearest, after a barrier of the team.
+  // These two return each lane's nearest vertices, after a barrier of the team.
   __device__ core::Proximity nearest_by_cells(const PlacedPair& bodies, bool is_asked_by_j, std::uint32_t team,
                                               const WarpShare& share) const {
     const core::Proximity best = Cells(f_, headers_, bodies, is_asked_by_j,
@@ -229,8 +230,8 @@ class ProximityStage {
     }
   }
 
-  // A barrier of the grid costs as much as some four rounds. The more levels are left to go down, the more there may be
-  // to hand over, and the sooner.
+  // After how many rounds a team hands over. A barrier of the grid costs as much as some four rounds. The more levels
+  // are left to descend, the more work there may be to hand over, and the sooner it is handed over.
   __device__ static std::uint32_t rounds_of_team(const TreePair& trees) { return trees.upper_level() >= 3 ? 2 : 3; }
   static constexpr std::uint32_t kRoundsOfBlock = 8;
 

@@ -1,4 +1,5 @@
-// What the searches for a pair's nearest vertices share: the stack, the bound by boxes, the warp's verdict.
+// What the searches for a pair's nearest vertices have in common: the stack, the lower bound from boxes, the nearest of
+// a warp.
 #pragma once
 
 #include "core/method/proximity.hpp"
@@ -9,11 +10,11 @@
 
 namespace broadside::gpu {
 
-// In shared memory, three words an entry, each kind of word side by side.
+// A stack in shared memory. An entry has three words; words of one kind lie side by side.
 struct SearchStack {
   std::uint32_t* words = nullptr;
   std::uint32_t entries = 0;
-  std::uint32_t stride = 0;  // from one kind of word to the next
+  std::uint32_t stride = 0;  // words from one kind to the next
 
   __device__ std::uint32_t* a() const { return words; }
   __device__ std::uint32_t* b() const { return words + stride; }
@@ -25,7 +26,7 @@ struct SearchStack {
     words[stride + k] = p.b;
     words[2 * stride + k] = __float_as_uint(p.gap2);
   }
-  // Its first entries, and those from this one on.
+  // The part with the first `count` entries, and the part from an entry on.
   __device__ SearchStack first(std::uint32_t count) const { return {words, count, stride}; }
   __device__ SearchStack from(std::uint32_t first) const { return {words + first, entries - first, stride}; }
 };
@@ -40,9 +41,9 @@ struct TeamCounts {
 
 constexpr std::uint32_t kBytesPerStackEntry = 12;
 
-// Squared distance of two boxes in the arithmetic of core::squared_distance. Rounding is monotone in every operation of
-// it, so no vertex in one box and vertex in the other have a smaller rounded squared distance than this: what is
-// skipped by it could not have been the nearest.
+// Squared distance of two boxes in the arithmetic of core::squared_distance. Every operation of it rounds
+// monotonically, so no vertex in one box and vertex in the other have a smaller rounded squared distance: vertices that
+// are skipped because of it cannot be the nearest.
 __device__ inline float squared_gap(const core::Box& a, const core::Box& b) {
   const auto gap = [](float a_min, float a_max, float b_min, float b_max) {
     return fmaxf(0.0F, fmaxf(a_min - b_max, b_min - a_max));
@@ -52,9 +53,10 @@ __device__ inline float squared_gap(const core::Box& a, const core::Box& b) {
   return core::dot(g, g);
 }
 
-// core::is_nearer's first of all lanes: one word of it after the other, and hardly ever more than the first.
+// The nearest of all lanes by core::is_nearer. It compares one word after another, and hardly ever needs more than the
+// first.
 __device__ inline core::Proximity warp_nearest(const core::Proximity& mine) {
-  // Of non-negative floats, bits order as values do.
+  // Bits of non-negative floats have the order of their values.
   const std::uint32_t distance = __float_as_uint(mine.squared_distance_m2);
   bool is_first = distance == warp_min(distance);
   unsigned first = __ballot_sync(kFullWarp, is_first);

@@ -1,5 +1,5 @@
 // Nearest vertices of one pair of bodies, P(7) and P(8): branch and bound over two vertex trees at once, by one warp or
-// by several that share what is left to open.
+// by several that share one stack.
 #pragma once
 
 #include "core/method/proximity.hpp"
@@ -15,7 +15,7 @@ namespace broadside::gpu {
 class NearChildren {
  public:
   NearChildren() = default;
-  // By the whole warp.
+  // Called by the whole warp.
   __device__ NearChildren(const NodePair& first, const NodePair& second, bool is_first_near, bool is_second_near)
       : first_(first),
         second_(second),
@@ -27,7 +27,7 @@ class NearChildren {
   __device__ bool are_any() const { return (first_near_ | second_near_) != 0; }
   __device__ bool are_leaves() const { return first_.are_leaves(); }
 
-  // Calls put(place, pair) for this lane's, which have their places among all.
+  // Calls put(place, pair) for this lane's near pairs; places are counted over all lanes.
   template <typename Put>
   __device__ void each(const Put& put) const {
     if (is_first_near()) put(first_place(), first_);
@@ -43,12 +43,12 @@ class NearChildren {
 
   NodePair first_;
   NodePair second_;
-  unsigned first_near_ = 0;  // of which lanes
+  unsigned first_near_ = 0;  // bit k: the first pair of lane k is near
   unsigned second_near_ = 0;
 };
 
 // The two trees of a pair, and the nearest vertices that this lane has found. `bound`, in shared memory, has the bits
-// of the smallest squared distance that any lane found (of non-negative floats, bits order as values do).
+// of the smallest squared distance that any lane found (bits of non-negative floats have the order of their values).
 class TreePair {
  public:
   __device__ TreePair(const FrameView& f, const ShapeHeaders& headers, const PlacedPair& bodies, std::uint32_t* bound)
@@ -67,10 +67,10 @@ class TreePair {
   __device__ NodePair roots() const { return {a_.root, b_.root, 0.0F}; }
   __device__ std::uint32_t top() const { return max(level_of(a_.root), level_of(b_.root)); }
   __device__ float limit() const { return __uint_as_float(*static_cast<volatile std::uint32_t*>(bound_)); }
-  // This lane's.
+  // The nearest vertices that this lane has found.
   __device__ core::Proximity best() const { return best_; }
 
-  // Of a body's upper nodes, and of its root, which lies behind them.
+  // The number of a body's upper nodes, and the k-th of them; the root follows them.
   __device__ std::uint32_t upper_count(bool of_a) const { return of_a ? a_.upper_count : b_.upper_count; }
   __device__ FetchedNode upper(bool of_a, std::uint32_t k) const {
     FetchedNode node = fetched_node((of_a ? a_.upper : b_.upper) + k);
@@ -81,14 +81,14 @@ class TreePair {
   // How many levels there are below these nodes.
   __device__ std::uint32_t upper_level() const { return max(a_.upper_level, b_.upper_level); }
 
-  // By the whole warp: opens both nodes; a leaf stays as it is. All boxes are loaded before any is used, so that the
-  // warp waits once.
+  // Called by the whole warp: opens both nodes, but a leaf stays as it is. All boxes are loaded before any is used, so
+  // that the warp waits once.
   __device__ NearChildren open(const NodePair& parents, float limit) const {
     const bool opens_a = level_of(parents.a) != 0;
     const bool opens_b = level_of(parents.b) != 0;
     const std::uint32_t p = lane() / 8;
     const std::uint32_t q = lane() % 8;
-    // All lanes load the box of a leaf; the first of them uses it.
+    // If a node is a leaf, all lanes load its box, and only the first of them uses it.
     const auto place = [](bool opens, std::uint32_t word, std::uint32_t child, std::uint32_t leaf_offset) {
       return opens ? block_of(word) * kFanOut + child : word + leaf_offset;
     };
@@ -109,14 +109,14 @@ class TreePair {
             opens_a && takes_b && is_near(high_gap2)};
   }
 
-  // By the whole warp: up to four pairs of leaves, eight lanes a pair: a lane compares one vertex of A with
-  // eight of B. kAtOnce of these are loaded at once: waiting for loads is what takes the time.
+  // Called by the whole warp for up to four pairs of leaves, with eight lanes for each pair: a lane compares one vertex
+  // of A with eight of B. kAtOnce of the eight are loaded at once, because waiting for loads is what takes the time.
   template <std::uint32_t kAtOnce>
   __device__ void visit_leaves(bool has_leaves, const NodePair& leaves, float limit) {
     static_assert(kLeafVertices % kAtOnce == 0);
     const bool is_near = has_leaves && leaves.gap2 <= limit;
-    // A leaf's word is its block of vertices. A lane without a pair of leaves loads the first vertices and
-    // ignores them.
+    // The word of a leaf is the number of its block of vertices. A lane without a pair of leaves loads the first
+    // vertices and ignores them.
     const PackedVec3* of_b = vertices_ + (is_near ? leaves.b * kLeafVertices : 0U);
     const PackedVec3 mine = fetched(vertices_ + (is_near ? leaves.a * kLeafVertices : 0U) + lane() % 8);
     const core::Vec3 va = mine.v + xa_;
@@ -144,7 +144,8 @@ class TreePair {
   }
 
  private:
-  // The fields of a tree that a search needs often, loaded once: headers lie in global or in shared memory.
+  // The fields of a tree that a search needs often. They are loaded once, because headers lie in global or shared
+  // memory.
   struct Tree {
     __device__ Tree(const TreeHeader& header, const PackedBox* all_upper)
         : root(header.root),
@@ -171,14 +172,15 @@ class TreePair {
   core::Proximity best_;
 };
 
-// By one warp, with a stack of its own. Returns each lane's nearest.
+// By one warp, with a stack of its own. Returns each lane's nearest vertices.
 __device__ inline core::Proximity nearest_by_trees(TreePair trees, const SearchStack& stack) {
   if (lane() == 0) stack.put(0, trees.roots());
   std::uint32_t size = 1;
   __syncwarp();
   while (size > 0) {
     const float limit = trees.limit();
-    // Groups of eight lanes look at the upmost four; leaves at the top are visited at once.
+    // Four groups of eight lanes look at the topmost four entries. If the topmost are pairs of leaves, they are visited
+    // together.
     const std::uint32_t group = lane() / 8;
     const NodePair one = stack.at(size - 1 - min(group, size - 1));
     const unsigned are_leaves = __ballot_sync(kFullWarp, group < size && one.are_leaves());
@@ -210,18 +212,18 @@ __device__ inline bool is_much(const TeamCounts& left) {
 }
 
 // Several warps of a block that search one pair.
-struct SearchTeam : WarpShare {  // of two or more
+struct SearchTeam : WarpShare {  // two or more warps
   std::uint32_t barrier = 0;     // the team's number in its block
-  SearchStack stack;             // of all members together
-  // [kTeamTurns] how many pairs of nodes and of leaves rounds add. In shared memory; the second is clear when a search
-  // goes on from what the stack holds.
+  SearchStack stack;             // one for all members together
+  // [kTeamTurns] how many pairs of nodes and of leaves a round adds. In shared memory. The second must be zero when a
+  // search begins with what the stack holds.
   TeamCounts* counts = nullptr;
 
   __device__ void sync() const { sync_warps(barrier, members); }
-  // The stack is two: a round makes no more than 64 pairs of leaves a warp.
+  // The stack is divided in two. That of leaves needs 64 entries a warp, since a round makes no more pairs of leaves.
   __device__ SearchStack nodes() const { return stack.first(stack.entries - 64 * members); }
   __device__ SearchStack leaves() const { return stack.from(stack.entries - 64 * members); }
-  // Entry k of a stack that holds `of`: nodes first, then leaves.
+  // Entry k of a stack that holds `of`, where pairs of nodes come first, then pairs of leaves.
   __device__ void put(const TeamCounts& of, std::uint32_t k, const NodePair& p) const {
     k < of.nodes ? nodes().put(k, p) : leaves().put(k - of.nodes, p);
   }
@@ -230,17 +232,17 @@ struct SearchTeam : WarpShare {  // of two or more
   }
 };
 
-// Rounds add to these in turn; each is cleared in the round before the one that adds to it.
+// Rounds add to these counts in turn; each is cleared in the round before the one that adds to it.
 constexpr std::uint32_t kTeamTurns = 4;
 
-// By one warp of a team: room for what is near among all that this round adds. Returns its place, to the first lane:
-// it is waited for where it is used.
+// Called by one warp of a team: reserves room for its near pairs among all that this round adds. The first lane gets
+// the place; the warp waits for it only where it is used.
 __device__ inline std::uint32_t room_for_near(const NearChildren& near, TeamCounts& added) {
   std::uint32_t room = 0;
   if (near.are_any() && lane() == 0) room = atomicAdd(near.are_leaves() ? &added.leaves : &added.nodes, near.count());
   return room;
 }
-// Puts what is near there, behind what is kept.
+// Puts the near pairs there, after what is kept.
 __device__ inline void put_for_team(const SearchTeam& team, const NearChildren& near, const TeamCounts& kept,
                                     std::uint32_t room) {
   if (!near.are_any()) return;
@@ -249,19 +251,19 @@ __device__ inline void put_for_team(const SearchTeam& team, const NearChildren& 
   near.each([&](std::uint32_t place, const NodePair& pair) { stack.put(first + place, pair); });
 }
 
-// By all warps of a team, in rounds: each opens a pair of nodes or visits four pairs of leaves, from the top of the
-// stack on. Where surfaces touch, nearly all the work is below one pair of upper nodes, so it cannot be dealt out
-// beforehand.
+// By all warps of a team, in rounds. In a round each warp opens a pair of nodes or visits four pairs of leaves, from
+// the top of the stack on. If surfaces touch, nearly all the work is below one pair of upper nodes, so it cannot be
+// dealt out beforehand.
 //
 // `left`: what the stack holds. `leftover`: a LeftoverOfPair or NoLeftover (leftover_work.cuh). Returns each lane's
-// nearest.
+// nearest vertices.
 template <typename Leftover>
 __device__ core::Proximity nearest_by_trees(TreePair trees, const SearchTeam& team, TeamCounts left,
                                             Leftover& leftover) {
   const SearchStack nodes = team.nodes();
   const SearchStack leaves = team.leaves();
-  // One warp alone, opening one pair after the other, never adds more than this. Each further pair that is opened at
-  // the same time may add 63; a division by 64 is faster.
+  // One warp alone that opens one pair after another never adds more than this. Each further pair that is opened at the
+  // same time may add 63; the code divides by 64 because that is faster.
   const std::uint32_t reserve = 63 * trees.top();
   for (std::uint32_t round = 1; left.any(); ++round) {
     // All members compute the same division of work from `left`, so they need not communicate.

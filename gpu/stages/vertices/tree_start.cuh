@@ -1,5 +1,5 @@
-// Where a search of two vertex trees by several warps begins: not at the roots, but at the pairs of upper nodes that
-// are near each other.
+// Begins a search of two vertex trees by several warps: not at the roots, but at the pairs of upper nodes that are near
+// each other.
 #pragma once
 
 #include "gpu/frame/frame_view.hpp"
@@ -9,10 +9,10 @@
 
 namespace broadside::gpu {
 
-// By all warps of a team, whose counts are clear.
+// Called by all warps of a team, whose counts must be zero.
 //
-// Bodies that touch overlap near their surfaces: of either tree's upper nodes few are near the other's root. All pairs
-// of those are tried, where opening the roots and what is below them would be a wait for memory on each level.
+// Bodies that touch overlap only near their surfaces, so few upper nodes of either tree are near the other's root. All
+// pairs of these are tried. Opening the roots and the nodes below them would instead wait for memory on each level.
 class TreeStart {
  public:
   __device__ TreeStart(const TreePair& trees, const SearchTeam& team) : trees_(trees), team_(team) {}
@@ -22,7 +22,7 @@ class TreeStart {
     if (trees_.roots().are_leaves()) return begin_at_roots();
     list_near_roots();
     team_.sync();
-    // One warp alone can go on from what is put here, as from the roots.
+    // Leaves enough of the stack free for one warp alone to go on from these pairs, as it could from the roots.
     const std::uint32_t room = team_.nodes().entries - 63 * trees_.top();
     put_near_pairs(room);
     team_.sync();
@@ -31,12 +31,13 @@ class TreeStart {
   }
 
  private:
-  // While there are no pairs of leaves: the numbers of the nodes of A, or of B, that are near the other's root.
+  // The numbers of the nodes of A, or of B, that are near the other's root. They use the stack of leaves, which is
+  // still empty.
   static_assert(kMostUpperNodes <= 64 * 2, "so many words has a team of two");
   __device__ std::uint32_t* near_root(bool of_a) const { return of_a ? team_.leaves().a() : team_.leaves().b(); }
 
-  // Of pairs, and of what is listed, of A as nodes, of B as leaves. Both are cleared by rounds that come later, before
-  // others add to them; the second of the team's counts, to which the first round adds, stays clear.
+  // The number of pairs, and the numbers of listed nodes: of A in `nodes`, of B in `leaves`. Later rounds clear both
+  // before they add to them. The second of the team's counts, to which the first round adds, stays zero.
   __device__ TeamCounts& pairs() const { return team_.counts[0]; }
   __device__ TeamCounts& listed() const { return team_.counts[kTeamTurns - 1]; }
 
@@ -65,11 +66,11 @@ class TreeStart {
     }
   }
 
-  // All pairs of what is listed, a lane each at a time.
+  // Tests all pairs of listed nodes; each lane takes one pair at a time.
   __device__ void put_near_pairs(std::uint32_t room) const {
     const TeamCounts near = listed();
     const std::uint32_t all = near.nodes * near.leaves;
-    // Of numbers as small as these the quotient of floats is the integers'.
+    // Numbers are so small that the quotient in floats gives that of the integers.
     static_assert(kMostUpperNodes * kMostUpperNodes < 1U << 16);
     const float share = 1.0F / static_cast<float>(near.leaves);
     for (std::uint32_t first = team_.member * 32; first < all; first += team_.members * 32) {
