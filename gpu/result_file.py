@@ -1,7 +1,8 @@
-"""The results files of gpu/results: every script that measures here writes one, and `gpu/measured` makes a page of them.
+"""Writes the results files of gpu/results. Every script here that measures writes one, and `gpu/measured` makes a page
+from all of them.
 
-A file says when it was made, on which GPU and by which command; its rows are the script's own. The command is without
-folders, which differ from machine to machine.
+A file says when it was made, on which GPU and by which command; what its rows have is up to the script. The command is
+stored without folders, which differ from machine to machine.
 
 As a program, for scripts that are not Python:  gpu/result_file.py OUT.json ROW_FILE... -- COMMAND...
 """
@@ -26,7 +27,7 @@ def gpu_facts():
 
 
 def gpu_of(path):
-    """Of the first GPU, from what `nvidia-smi --query-gpu=... --format=csv` left in a file."""
+    """The facts of the first GPU, from a file with what `nvidia-smi --query-gpu=... --format=csv` printed."""
     with open(path, encoding="utf-8") as file:
         header, first = list(csv.reader(file))[:2]
     return {name.strip().split(" [")[0]: value.strip() for name, value in zip(header, first)}
@@ -37,13 +38,13 @@ def without_folder(argument):
 
 
 def head(arguments):
-    """What every file says of itself. `arguments`: of the script, its own name first."""
+    """The entries that every file has. `arguments`: those of the script, its own name first."""
     words = ["gpu/" + os.path.basename(arguments[0]), *(without_folder(word) for word in arguments[1:])]
     return {"when": datetime.date.today().isoformat(), "gpu": gpu_facts(), "command": " ".join(words)}
 
 
 def write(path, result):
-    """The file appears whole or not at all."""
+    """Writes the file so that it appears complete or not at all."""
     with open(path + ".part", "w", encoding="utf-8") as file:
         json.dump(result, file, indent=1)
         file.write("\n")
