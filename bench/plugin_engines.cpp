@@ -39,7 +39,7 @@ core::Result<double> hello_limit_s() {
   const auto [end, fault] = std::from_chars(text.data(), text.data() + text.size(), seconds);
   if (fault != std::errc() || end != text.data() + text.size() || !(seconds > 0.0) || seconds > 86400.0)
     return core::Error{"'" + std::string(text) + "' is no number of seconds up to a day", kHelloVariable,
-                       "it is how long an engine may take to say what it is; without it, 10"};
+                       "it limits how long an engine may take to describe itself; the default is 10"};
   return seconds;
 }
 
@@ -171,10 +171,11 @@ core::Result<reference::PluginDescription> described(const std::string& path, bo
   const ChildEnding& ending = ended.value();
   const std::string more = std::string("; more time: ") + kHelloVariable + "=60";
   if (ending.exit_code < 0)
-    return core::Error{(is_program ? "asking it what it is: " : "loading it in a child process: ") + ending.words, path,
-                       (is_program ? "a program answers hello first, without work: core/plugin/PROGRAMS.md"
-                                   : "it must load and describe itself without work") +
-                           (ending.timed_out ? more : std::string())};
+    return core::Error{
+        (is_program ? "asking it to describe itself: " : "loading it in a child process: ") + ending.words, path,
+        (is_program ? "a program must answer hello before any other work: core/plugin/PROGRAMS.md"
+                    : "it must load and describe itself without other work") +
+            (ending.timed_out ? more : std::string())};
   if (!ending.is_good) {
     // The child's one clear line: "broadside: FILE: what; advice".
     const std::string prefix = "broadside: " + path + ": ";

@@ -37,7 +37,7 @@ std::shared_ptr<const core::Mesh> mesh_of(const Json& body) {
   for (const Json& t : body.at("triangles")) {
     mesh.triangles.push_back(t.get<core::Triangle>());
     for (const std::uint32_t v : mesh.triangles.back())
-      if (v >= mesh.vertices.size()) throw std::out_of_range("a triangle names a vertex that is not there");
+      if (v >= mesh.vertices.size()) throw std::out_of_range("a triangle names a vertex that does not exist");
   }
   if (mesh.triangles.empty()) throw std::out_of_range("a mesh has no triangles");
   return std::make_shared<const core::Mesh>(std::move(mesh));

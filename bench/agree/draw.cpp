@@ -71,7 +71,7 @@ core::Status draw_in_children(std::uint64_t count, std::uint32_t processes,
       return has_ended;
     });
   }
-  if (!is_good) return failed("a process died, perhaps for want of memory");
+  if (!is_good) return failed("a process died, perhaps because memory ran out");
   return core::Done{};
 }
 

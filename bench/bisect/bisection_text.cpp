@@ -29,14 +29,14 @@ std::string headline(const Builds& builds, const Answer& answer) {
       if (answer.where.unknown.empty())
         return fmt::format("{}: the first build that changes it is {}", word, list[answer.where.first_changed].title);
       return fmt::format(
-          "{}: {} builds may be the first that changes it, because some between the sides cannot be judged", word,
-          answer.where.unknown.size() + 1);
+          "{}: {} builds may be the first that changes it, because some builds between good and bad cannot be judged",
+          word, answer.where.unknown.size() + 1);
     case Ending::kSame:
       return fmt::format("{}: no change from {} to {}", word, list.front().title, list.back().title);
     case Ending::kUnsteady:
       return fmt::format("{}: the good build differs from itself, so a difference says nothing about builds", word);
     case Ending::kUntold:
-      return fmt::format("{}: cannot be told: {}", word, answer.reason);
+      return fmt::format("{}: cannot be decided: {}", word, answer.reason);
   }
   return {};
 }
@@ -120,8 +120,8 @@ std::string bisection_markdown(const Builds& builds, const Question& question, c
     text += fmt::format("\n## {}\n", headline(builds, answer));
     if (const std::string sides = body(builds, question, answer); !sides.empty()) text += "\n```\n" + sides + "```\n";
     if (!answer.traces.empty())
-      text += "\nWhere the traces of both sides part (A: last unchanged, B: first changed):\n\n```\n" + answer.traces +
-              "```\n";
+      text += "\nWhere the traces of both builds first differ (A: last unchanged, B: first changed):\n\n```\n" +
+              answer.traces + "```\n";
   }
   if (!bisection.skipped.empty()) text += "\n## Builds that were skipped\n\n";
   for (const std::string& line : bisection.skipped) text += "- " + line + "\n";

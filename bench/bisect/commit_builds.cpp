@@ -32,15 +32,15 @@ class CommitBuilds final : public Builds {
     if (core::Status s = prepare_folder(request_.folder / "logs"); !s) return s;
     if (!git({"rev-parse", "--git-dir"}))
       return core::Error{"it is no git repository", request_.repository,
-                         "name one with --repository; for builds that are there leave --build away"};
+                         "name one with --repository; for builds that exist already, leave out --build"};
     auto good = commit(request_.good);
     if (!good) return good.error();
     auto bad = commit(request_.bad);
     if (!bad) return bad.error();
     if (good.value() == bad.value())
-      return core::Error{"GOOD and BAD are one commit", request_.good, "name two commits, the older one first"};
+      return core::Error{"GOOD and BAD are the same commit", request_.good, "name two commits, the older one first"};
     if (auto is_before = git({"merge-base", "--is-ancestor", good.value(), bad.value()}); !is_before)
-      return core::Error{"GOOD is no ancestor of BAD, so there are no commits from the one to the other",
+      return core::Error{"GOOD is not an ancestor of BAD, so no commits lead from GOOD to BAD",
                          request_.good + ".." + request_.bad, "name the older commit first"};
     const std::string format = "--format=%H%x09%h%x09%s";
     auto first = git({"log", "-1", format, good.value()});
@@ -74,7 +74,7 @@ class CommitBuilds final : public Builds {
     if (code.value() != 0) {
       made.fault = fmt::format("does not build: exit code {}{}", code.value(), said_in(log));
     } else if (!request_.program.empty() && !fs::exists(made.place.program)) {
-      made.fault = "was built, and there is no " + request_.program;
+      made.fault = "was built, but there is no " + request_.program;
     } else {
       tree.holds = k;
     }
@@ -101,7 +101,7 @@ class CommitBuilds final : public Builds {
     auto id = git({"rev-parse", "--verify", "--quiet", "--end-of-options", text + "^{commit}"});
     if (!id)
       return core::Error{"there is no such commit in " + request_.repository, text,
-                         "name a commit, branch or tag; for builds that are there leave --build away"};
+                         "name a commit, branch or tag; for builds that exist already, leave out --build"};
     return id.value().substr(0, id.value().find('\n'));
   }
 

@@ -31,7 +31,7 @@ core::Result<FolderLock> FolderLock::take(const std::filesystem::path& folder) {
                          "choose another --out, on a file system of this machine"};
     if (is_interrupted()) return core::Error{"interrupted", "bisect", "", core::Exit::kMissing};
     if (!is_told)
-      fmt::print(stderr, "bisect: waiting for another one in {}, or for what a killed one started there\n",
+      fmt::print(stderr, "bisect: waiting for another bisect in {}, or for a process that a killed one left running\n",
                  folder.string());
     is_told = true;
     std::this_thread::sleep_for(std::chrono::milliseconds(200));

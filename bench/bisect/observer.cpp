@@ -40,7 +40,8 @@ core::Result<Observer> Observer::begin(Builds& builds, const Question& question)
   if (core::Status s = prepare_folder(question.folder); !s) return s.error();
   auto state = read_state(question.folder, question_text(builds, question));
   if (!state) return state.error();
-  if (!state.value().seen.empty()) tell(fmt::format("goes on: {} runs are known", state.value().seen.size()));
+  if (!state.value().seen.empty())
+    tell(fmt::format("continuing: {} runs are already known", state.value().seen.size()));
   return Observer(builds, question, std::move(state).value());
 }
 

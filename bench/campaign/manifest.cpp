@@ -76,7 +76,7 @@ core::Status read_cells(const Json& rows, const std::filesystem::path& file, Man
     } catch (const RefusedNumber& refused) {
       return bad(": " + refused.what);
     }
-    if (!is_id(cell.id) || !is_id(cell.turns)) return bad(" has no proper id");
+    if (!is_id(cell.id) || !is_id(cell.turns)) return bad(" has no valid id");
     // Two experiments of the paper may show one measurement.
     if (!ids.insert(cell.id).second && manifest.job == nullptr) return bad(" has the id of an earlier one, " + cell.id);
     manifest.cells.push_back(std::move(cell));

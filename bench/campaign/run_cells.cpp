@@ -251,7 +251,7 @@ core::Result<Tally> run_cells(const fs::path& folder, const Selection& selection
   const bool is_known =
       selection.id.empty() || std::any_of(manifest.cells.begin(), manifest.cells.end(),
                                           [&](const ManifestCell& c) { return c.id == selection.id; });
-  if (!is_known) return core::Error{"there is no cell " + selection.id, folder.string(), "ids stand in manifest.json"};
+  if (!is_known) return core::Error{"there is no cell " + selection.id, folder.string(), "manifest.json lists the ids"};
   std::error_code failed;
   fs::create_directories(folder / "cells", failed);
   if (failed) return core::Error{"cannot write there: " + failed.message(), folder.string(), "check the folder"};

@@ -115,7 +115,7 @@ core::Result<std::vector<std::string>> EngineArguments::all() const {
   }
   if (named.empty())
     return core::Error{"no engine was named", file.empty() ? "--engine" : file,
-                       "one of those that 'broadside list engines' shows"};
+                       "name one that 'broadside list engines' shows"};
   return named;
 }
 

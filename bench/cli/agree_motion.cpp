@@ -186,8 +186,8 @@ void say_truths(const Questions& questions) {
   if (questions.tests.size() == 1 && touching == 1)
     fmt::print(", first in [{:.17g}, {:.17g}] of the step", questions.tests[0].truth.lower,
                questions.tests[0].truth.upper);
-  if (rounded > 0) fmt::print("; of {} it depends on rounding to doubles", rounded);
-  if (contradicted > 0) fmt::print("; the file says otherwise of {}", contradicted);
+  if (rounded > 0) fmt::print("; for {} of them rounding to doubles decides", rounded);
+  if (contradicted > 0) fmt::print("; the file disagrees on {}", contradicted);
   fmt::print("\n");
 }
 

@@ -206,7 +206,9 @@ void add_agree(CLI::App& program, core::Exit& exit) {
       ->check(CLI::IsMember(kinds))
       ->capture_default_str();
   const std::vector<std::string> motions(std::begin(kMotionKinds), std::end(kMotionKinds));
-  command->add_option("--motion", a->motion, "Continuous queries instead, against the exact first touch: what moves")
+  command
+      ->add_option("--motion", a->motion,
+                   "Test continuous queries instead, against the exact first touch; the value names what moves")
       ->check(CLI::IsMember(motions))
       ->excludes("--pairs");
   command->add_option("--n", a->count, "Number of pairs")->check(CLI::Range(1, 10'000'000))->capture_default_str();
@@ -216,20 +218,20 @@ void add_agree(CLI::App& program, core::Exit& exit) {
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   command->add_option("--mesh", a->mesh, "With --pairs or --motion meshes: this mesh instead of lumpy bodies");
-  command->add_option("--seed", a->seed, "Of the pairs")->capture_default_str();
+  command->add_option("--seed", a->seed, "Seed of the random pairs")->capture_default_str();
   command->add_option("--out", a->folder, "Folder for rows, tables and saved inputs")->capture_default_str();
-  command->add_option("--time-limit", a->limits.seconds_per_query, "Processor seconds after which one query is ended")
+  command->add_option("--time-limit", a->limits.seconds_per_query, "Processor seconds after which a query is stopped")
       ->check(more_than_zero, "POSITIVE")
       ->capture_default_str();
   command->add_option("--memory-limit", a->limits.memory_mib, "MiB that an engine's process may take; 0 = no limit")
       ->capture_default_str();
-  command->add_option("--processes", a->limits.processes, "Processes that ask side by side (default: one per core)")
+  command->add_option("--processes", a->limits.processes, "Processes that run side by side (default: one per core)")
       ->check(CLI::Range(1, 256));
   command->add_option(
       "--case", a->case_file,
-      "Ask about one saved case instead (exit 1 when an answer is wrong). Of --motion vertex-face and edge-edge: a "
-      "csv file, 8 rows a query (4 points at the start, 4 at the end), each coordinate as "
-      "numerator,denominator, and then whether they touch, 0 or 1");
+      "Repeat one saved case instead (exit 1 when an answer is wrong). With --motion vertex-face or edge-edge: a CSV "
+      "file, 8 rows a query (4 points at the start, 4 at the end), each coordinate as numerator,denominator, and then "
+      "1 where they touch, else 0");
   command->add_flag("--json", a->as_json, "As JSON");
   command->footer("Engines of --motion, with their settings:\n" + motion_engines_text());
   command->callback([a, &exit] { exit = agree(*a); });

@@ -49,7 +49,7 @@ core::Status complete(BisectArguments& a) {
                        "write {build} or {program} where the build's file or folder belongs, and {out} for results"};
   if (!a.builds.command.empty() && !a.builds.between.empty())
     return core::Error{"--build and --between were both given", "bisect",
-                       "--build makes every commit from GOOD to BAD; --between lists builds that are there"};
+                       "--build makes every commit from GOOD to BAD; --between lists builds that exist"};
   if (question.times.most < question.times.processes) question.times.most = question.times.processes;
   for (const bisect::QuantityWord& row : bisect::kQuantityWords)
     if (std::find(a.on.begin(), a.on.end(), row.word) != a.on.end()) question.quantities.push_back(row.quantity);
@@ -118,13 +118,14 @@ void add_gate(CLI::App& command, BisectArguments& a) {
       ->delimiter(',')
       ->capture_default_str();
   bisect::TimeSettings& times = a.question.times;
-  command.add_option("--delta", times.delta, "With --on time: smallest change that is called one, as in compare")
+  command.add_option("--delta", times.delta, "With --on time: smallest change that counts, as in compare")
       ->check(CLI::Range(0.0, 10.0))
       ->capture_default_str();
   command.add_option("--processes", times.processes, "With --on time: timed processes of each build")
       ->check(CLI::Range(6, 100'000))
       ->capture_default_str();
-  command.add_option("--most-processes", times.most, "With --on time: so many where the first ones do not decide")
+  command
+      .add_option("--most-processes", times.most, "With --on time: up to this many where the first ones do not decide")
       ->check(CLI::Range(6, 100'000))
       ->capture_default_str();
 }
@@ -139,13 +140,14 @@ void add_bisect(CLI::App& program, core::Exit& exit) {
   add_work(*command, *a);
   add_gate(*command, *a);
   command
-      ->add_option("--out", a->folder, "Results of each build, the state, and bisect.md; the same call goes on there")
+      ->add_option("--out", a->folder,
+                   "Folder for the results of each build, the state, and bisect.md; the same call continues there")
       ->capture_default_str();
   command->add_flag("--json", a->as_json, "Print JSON");
   command->footer(
       "The command leaves cells.json and verdicts.json in {out} (run --out {out}, check --json {out}/verdicts.json);\n"
       "for --on time samples.json too. Where it exits 125, 126 or 127 the build is skipped. Exit codes: 0 no change;\n"
-      "1 the first change was found; 2 bad input; 3 it cannot be told, because builds do not compile or GOOD differs\n"
+      "1 the first change was found; 2 bad input; 3 undecided, because builds do not compile or GOOD differs\n"
       "from itself. A command that may hang: 'timeout 600 ...'. Example, with commits of a library that is an engine:\n"
       "  broadside bisect v1.2 main --build 'make libmine.so' --command 'broadside run two-body:glancing\n"
       "    --engine {build}/libmine.so --out {out} && broadside check {out}/*.h5 --json {out}/verdicts.json'");

@@ -146,7 +146,9 @@ void add_candidates(CLI::App& program, core::Exit& exit) {
       "Candidates of continuous collision: vertices and faces, and edges, of a moving surface whose boxes, swept over "
       "the step, overlap. Engines find pairs of triangles and must agree (exit 1 if they do not); times are of this "
       "one call");
-  command->add_option("MOTION", a->source.start, "A motion of the list below, or with --to a mesh file: the start")
+  command
+      ->add_option("MOTION", a->source.start,
+                   "A motion from the list below; with --to, the mesh file at the start of the step")
       ->required();
   command->add_option("--to", a->source.end, "The same mesh at the end of the step, with triangles in the same order");
   a->engines.add_to(*command);

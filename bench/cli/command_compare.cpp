@@ -38,7 +38,7 @@ core::Result<core::RunRows> rows_of(const std::string& folder) {
 
 core::Result<InterleavedRows> stored(const CompareArguments& a) {
   if (a.what.size() != 2)
-    return core::Error{"two folders are compared, and " + std::to_string(a.what.size()) + " were given", "compare",
+    return core::Error{"compare takes two folders, and " + std::to_string(a.what.size()) + " were given", "compare",
                        "write BASE HEAD, or --interleave BIN_BASE BIN_HEAD SCENE..."};
   auto base = rows_of(a.what[0]);
   if (!base) return base.error();
@@ -64,7 +64,7 @@ core::Result<InterleavedRows> in_turns(const CompareArguments& a) {
   plan.folder = a.folder;
   for (const std::string& program : {plan.base, plan.head})
     if (access(program.c_str(), X_OK) != 0 || std::filesystem::is_directory(program))
-      return core::Error{"is no program that can be run", program, "name the file that the build made"};
+      return core::Error{"is not a program that can be run", program, "name the file that the build made"};
   if (plan.engines.empty()) plan.engines = {"octree-cpu"};
   const auto untold = [&](const InterleavedRows& rows) {
     std::set<std::string> names;
@@ -94,9 +94,10 @@ void add_compare(CLI::App& program, core::Exit& exit) {
   command->add_flag("--interleave", a->is_interleaved,
                     "Run two builds in turns on this machine and compare them pair by pair");
   command
-      ->add_option("--delta", a->options.delta,
-                   "Smallest change of a time that is called one, as a share. Moving code alone changes times by a few "
-                   "percent, so below 0.05 a change of layout is blamed on the edit")
+      ->add_option(
+          "--delta", a->options.delta,
+          "Smallest change of a time that counts, as a fraction. Moving code alone changes times by a few percent, so "
+          "with less than 0.05 a change of code layout looks like an effect of the edit")
       ->check(CLI::Range(0.0, 10.0))
       ->capture_default_str();
   command
@@ -109,7 +110,7 @@ void add_compare(CLI::App& program, core::Exit& exit) {
       ->capture_default_str();
   command
       ->add_option("--most-processes", a->plan.most,
-                   "With --interleave: of scenes whose times are inconclusive so many, twice as many at a time; the "
+                   "With --interleave: up to this many for scenes whose times are inconclusive, doubled each time; the "
                    "intervals allow for looking more than once")
       ->check(CLI::Range(6, 100'000))
       ->capture_default_str();

@@ -174,7 +174,7 @@ core::Exit run_contest(const ContestArguments& a) {
   fmt::print("{}\n\nReport: {}\n", document.lead, (folder / "contest.html").string());
   if (is_interrupted())
     return complain({"interrupted: finished cells are kept, and the page shows them", folder.string(),
-                     "call it again to go on", core::Exit::kMissing});
+                     "call it again to continue", core::Exit::kMissing});
   return exit_of_contest(table, merged.value().missing);
 }
 
@@ -183,35 +183,43 @@ core::Exit run_contest(const ContestArguments& a) {
 void add_contest(CLI::App& program, core::Exit& exit) {
   auto a = std::make_shared<ContestArguments>();
   CLI::App* command = program.add_subcommand(
-      "contest", "Every engine of rigid bodies on every scene with a known answer: verdicts, error against cost");
+      "contest",
+      "Run every engine of rigid bodies on every scene with a known answer, and compare verdicts, errors and costs");
   command->add_option("--engine,--engines", a->request.engines,
                       "Engines, such as ode-world[solver=dantzig] (default: all)");
   command->add_option("--scene,--scenes", a->request.scenes,
-                      "Scenes, or how names begin: rigid:incline:* (default: all rigid:*)");
+                      "Scenes, or beginnings of names: rigid:incline:* (default: all rigid:*)");
   command
       ->add_option(
           "--steps", a->request.step_factors,
-          "Shares of each scene's own step; 1 is in the matrix. Without --scenes, one scene of each kind takes them all")
+          "Steps, as multiples of each scene's own step; the matrix shows 1. Without --scenes, one scene of each kind "
+          "runs at all of them")
       ->delimiter(',')
       ->check(more_than_zero, "POSITIVE")
       ->capture_default_str();
   command->add_option("--repetitions", a->request.repetitions, "Timed runs of a cell; 0 = verdicts alone")
       ->capture_default_str();
-  command->add_option("--time-limit", a->request.time_limit_s, "Seconds of each part of a cell")
+  command->add_option("--time-limit", a->request.time_limit_s, "Seconds that each part of a cell may take")
       ->check(more_than_zero, "POSITIVE")
       ->capture_default_str();
   command
-      ->add_option("--jobs", a->jobs,
-                   "Cells at a time: the times of more than one are those of a busy machine, and the page says so")
+      ->add_option(
+          "--jobs", a->jobs,
+          "Cells to run at a time; with more than one, times are those of a busy machine, and the page says so")
       ->check(CLI::Range(1U, 1024U))
       ->capture_default_str();
-  command->add_flag("--heaps", a->request.has_largest_heaps, "A heap of 10,000 boxes too: an hour more on two cores");
-  command->add_flag("--yes", a->installs, "Install missing engines of npm without asking; no terminal, no question");
-  command->add_flag("--dry-run", a->only_plans, "Run nothing: how many cells, how long they take, and the dearest");
-  command->add_flag("--only-report", a->only_reports, "Run nothing: make the page of the cells that are there");
-  command->add_option("--out", a->out, "Folder for cells and page; a second call goes on in it")->capture_default_str();
+  command->add_flag("--heaps", a->request.has_largest_heaps,
+                    "Also run a heap of 10,000 boxes: an hour more on two cores");
+  command->add_flag("--yes", a->installs,
+                    "Install missing engines from npm without asking; without a terminal, nothing is asked");
+  command->add_flag("--dry-run", a->only_plans,
+                    "Run nothing: print how many cells there are, how long they take, and the most expensive ones");
+  command->add_flag("--only-report", a->only_reports, "Run nothing: make the page from the cells that exist");
+  command->add_option("--out", a->out, "Folder for cells and page; a second call continues there")
+      ->capture_default_str();
   command->footer(
-      "Cells are those of a campaign (bench/campaign/README.md): each in a child process, kept when it is finished.\n"
+      "Each cell runs in a child process and is kept when it is finished, as in a campaign "
+      "(bench/campaign/README.md).\n"
       "Exit codes: 0 every law holds at the scenes' own steps; 1 one is broken; 3 a cell is missing.");
   command->callback([a, &exit] { exit = run_contest(*a); });
 }

@@ -13,7 +13,7 @@ namespace broadside::bench {
 
 void add_describe_plugin(CLI::App& program, core::Exit& exit) {
   // A command without a group is not listed in the help; for people there is `broadside list --engine FILE`.
-  CLI::App* command = program.add_subcommand("describe-plugin", "Prints what a plug-in says of itself, as JSON");
+  CLI::App* command = program.add_subcommand("describe-plugin", "Print as JSON what a plug-in says about itself");
   command->group("");
   auto file = std::make_shared<std::string>();
   command->add_option("FILE", *file, "shared library, or the command of a program")->required();

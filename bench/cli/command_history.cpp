@@ -45,7 +45,7 @@ core::Exit append(const HistoryArguments& a) {
     if (done.is_new)
       fmt::print("{}: run {}, {} values\n", folder, done.run, done.values);
     else
-      fmt::print("{}: is run {} already, nothing was appended\n", folder, done.run);
+      fmt::print("{}: is already run {}, nothing was appended\n", folder, done.run);
   }
   return core::Exit::kGood;
 }

@@ -104,8 +104,8 @@ core::Exit parse_and_run(int argc, char** argv) {
   program.footer(
       "Exit codes: 0 good; 1 a validator failed or a regression; 2 bad usage or bad input; 3 inconclusive or a\n"
       "cell that was asked for is missing; 4 internal. 'broadside SUBCOMMAND --help' explains each.\n"
-      "Environment: BROADSIDE_MESH_DIR, a folder with mesh files; BROADSIDE_HELLO_LIMIT_S, how long an engine of yours\n"
-      "may take to say what it is (10).");
+      "Environment: BROADSIDE_MESH_DIR, a folder with mesh files; BROADSIDE_HELLO_LIMIT_S, seconds that an engine of\n"
+      "yours may take to describe itself (default: 10).");
   core::Exit exit = core::Exit::kGood;
   for (const AddCommand add : kCommands) add(program, exit);
   if (argc < 2)

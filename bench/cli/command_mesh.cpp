@@ -64,7 +64,7 @@ core::Exit show_mesh(const std::string& name, bool as_json) {
   }
   for (const auto& [key, value] : facts.items()) fmt::print("{:<24} {}\n", key, fact_text(value));
   if (!facts["closed"].get<bool>() || facts["misoriented_edges"] != 0)
-    fmt::print("\nThe surface encloses no volume: the number is that of its triangles against the origin.\n");
+    fmt::print("\nThe surface encloses no volume: the number is the sum over its triangles, each with the origin.\n");
   return core::Exit::kGood;
 }
 

@@ -128,9 +128,9 @@ core::Exit mutants(const MutantArguments& a) {
 void add_mutants(CLI::App& program, core::Exit& exit) {
   auto a = std::make_shared<MutantArguments>();
   CLI::App* command = program.add_subcommand(
-      "mutants", "Run wrong engines and spoiled traces past the validators: which is caught by whom");
+      "mutants", "Run wrong engines and spoiled traces through the validators, and show which validator catches which");
   command->add_option("--only", a->only, "Run this mutation alone, and no sound scene");
-  command->add_option("--scenes", a->scenes, "Random scenes on which the sound engine must not be blamed")
+  command->add_option("--scenes", a->scenes, "Random scenes on which no validator may reject the sound engine")
       ->capture_default_str();
   command->add_flag("--reduced", a->is_reduced, "All mutations, but a few sound scenes only: for every build");
   command->add_flag("--matrix", a->shows_matrix, "Print which validator caught which, as a matrix");

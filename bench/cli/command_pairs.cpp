@@ -100,8 +100,8 @@ void add_pairs(CLI::App& program, core::Exit& exit) {
   auto a = std::make_shared<PairsArguments>();
   CLI::App* command = program.add_subcommand(
       "pairs",
-      "Overlapping pairs of boxes: engines must agree (exit 1 if they do not); times are of this one call. Says what "
-      "kind of set this is, and which way an engine took that has several");
+      "Overlapping pairs of boxes: engines must agree (exit 1 if they do not); times are of this one call. Prints "
+      "what kind of set the boxes are, and which algorithm was used by an engine that has several");
   command
       ->add_option(
           "BOXES", a->boxes,
@@ -111,9 +111,10 @@ void add_pairs(CLI::App& program, core::Exit& exit) {
   command->add_option("--frames", a->frames, "Frames of a moving stream (default: all)")
       ->check(more_than_zero, "POSITIVE");
   command
-      ->add_option("--parts", a->parts,
-                   "Cut space into so many ranges and search one after another; pairs are handed on part by part, so "
-                   "that neither all boxes nor all pairs are in the engine at once")
+      ->add_option(
+          "--parts", a->parts,
+          "Cut space into this many ranges and search one after another, so that neither all boxes nor all pairs are "
+          "in the engine at once")
       ->check(CLI::Range(1U, kMostParts));
   command->add_flag("--digest", a->only_digest, "Print only digest and engine");
   command->add_flag("--json", a->as_json, "As JSON");

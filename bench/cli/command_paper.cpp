@@ -117,16 +117,20 @@ void add_paper(CLI::App& program, core::Exit& exit) {
   command->add_option("--frames", a->asked.plan.frames, "Frames of each run")
       ->check(CLI::Range(1U, 1000000U))
       ->capture_default_str();
-  command->add_option("--runs", a->asked.plan.runs, "Timed runs of each cell, in turns with the scene's others")
+  command->add_option("--runs", a->asked.plan.runs, "Timed runs of each cell, alternating with the scene's other cells")
       ->check(CLI::Range(1U, 10000U))
       ->capture_default_str();
-  command->add_option("--models", a->asked.plan.models, "Of bunny, armadillo, dragon, asian_dragon (default: all)")
+  command
+      ->add_option("--models", a->asked.plan.models,
+                   "Models out of bunny, armadillo, dragon, asian_dragon (default: all)")
       ->delimiter(',');
   command->add_option("--counts", a->asked.plan.counts, "Numbers of bodies instead of the paper's")
       ->delimiter(',')
       ->check(more_than_zero, "POSITIVE");
   command->add_option("--engine", a->engine, "octree-gpu or octree-cpu (default: the best that runs here)");
-  command->add_option("--limit", a->asked.plan.limit_s, "Seconds that a cell of 'beyond' may be expected to take")
+  command
+      ->add_option("--limit", a->asked.plan.limit_s,
+                   "Leave out cells of 'beyond' that are expected to take more seconds than this")
       ->check(more_than_zero, "POSITIVE")
       ->capture_default_str();
   command->add_flag("--stand-in", a->asked.allow_stand_in,
@@ -134,7 +138,7 @@ void add_paper(CLI::App& program, core::Exit& exit) {
   command->add_flag("--keep-traces", a->asked.keeps_traces, "Keep the traces of finished cells in OUT/work");
   command->add_option("--rows", a->rows, "Measure nothing: make the report from this rows.json");
   command
-      ->add_option("--out", a->out, "Folder for the report, its data and finished cells; a second call goes on in it")
+      ->add_option("--out", a->out, "Folder for the report, its data and finished cells; a second call continues there")
       ->capture_default_str();
   command->footer(
       list_of_experiments() +

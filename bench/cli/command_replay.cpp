@@ -62,10 +62,11 @@ core::Exit replay(const ReplayArguments& a) {
 void add_replay(CLI::App& program, core::Exit& exit) {
   auto a = std::make_shared<ReplayArguments>();
   CLI::App* command = program.add_subcommand(
-      "replay", "Run an engine on the scene, boxes or poses of a trace, anybody's, and compare with what it recorded");
+      "replay", "Run an engine on the scene, boxes or poses of any trace, and compare with what the trace recorded");
   command->add_option("TRACE", a->trace, "A trace (.h5)")->required();
   a->engines.add_to(*command);
-  command->add_option("--as", a->capability, "What to repeat (default: what the trace and the engine have in common)")
+  command
+      ->add_option("--as", a->capability, "What to repeat (default: whatever the trace and the engine have in common)")
       ->check(CLI::IsMember({"dynamics", "broad", "narrow"}));
   command->add_option("--out", a->folder, "Keep the engine's own trace in this folder");
   command->add_flag("--json", a->as_json, "The comparison as JSON");

@@ -98,7 +98,8 @@ core::Exit run_campaign(const RunArguments& a) {
   auto tally = campaign::run_cells(a.scene.spec, selection, tell);
   if (!tally) return complain(tally.error());
   const campaign::Tally& t = tally.value();
-  fmt::print("{} cells done, {} were there, {} busy elsewhere, {} unfinished\n", t.done, t.there, t.busy, t.unfinished);
+  fmt::print("{} cells done, {} done before, {} running elsewhere, {} unfinished\n", t.done, t.there, t.busy,
+             t.unfinished);
   return t.busy + t.unfinished == 0 ? core::Exit::kGood : core::Exit::kMissing;
 }
 
@@ -116,7 +117,7 @@ std::string summary(const RunOutcome& outcome, const std::string& folder) {
 core::Exit run(const RunArguments& a) {
   if (!a.cell.empty() || !a.shard.empty()) return run_campaign(a);
   if (a.engines.is_empty())
-    return complain({"no engine was named", "--engine", "one of those that 'broadside list engines' shows"});
+    return complain({"no engine was named", "--engine", "name one that 'broadside list engines' shows"});
   if (!a.in_process.empty()) limit_this_process(a.limits.memory_mib);
   auto plan = make_plan(a);
   if (!plan) return complain(plan.error());

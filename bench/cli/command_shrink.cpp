@@ -172,7 +172,7 @@ core::Exit shrink(const ShrinkArguments& a) {
 void add_shrink(CLI::App& program, core::Exit& exit) {
   auto a = std::make_shared<ShrinkArguments>();
   CLI::App* command = program.add_subcommand(
-      "shrink", "The smallest scene (or box file) in which an engine still gets a verdict, and a test case of it");
+      "shrink", "Find the smallest scene (or box file) on which an engine still fails, and write a test case of it");
   a->scene.add_to(*command);
   a->engines.add_to(*command);
   command->add_option("--validator", a->validator, "The validator that fails (not for boxes: pairs are compared)");

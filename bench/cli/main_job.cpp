@@ -111,8 +111,8 @@ core::Status write_reports(const MainJob& job, const core::RunRows& first, const
   reports::ReportOptions options;
   options.title = fmt::format("{}, and {}", job.scene.spec, job.turning.spec);
   options.note = fmt::format(
-      "On {} engines made by others are compared: what they break is listed like everything else, and does not decide "
-      "the exit code of demo.",
+      "On {} engines made by others are compared: laws that they break are listed too, but do not decide the exit "
+      "code of demo.",
       job.turning.spec);
   options.command = fmt::format("./broadside demo --scene '{}' --turning-scene '{}' --out {}", job.scene.spec,
                                 job.turning.spec, job.folder.string());

@@ -103,9 +103,9 @@ void add_causes(Document& document, const ContestTable& table) {
   }
   document.blocks.emplace_back(Heading{"Why laws are broken", "broken"});
   document.blocks.emplace_back(Paragraph{fmt::format(
-      "A broken law is a defect of the engine, what it declares to be, a wrong setting of ours, or an error of the law. "
-      "Of these {} were looked into: the cause in a few words; reference/README.md tells more. "
-      "The other {} are not yet looked into.",
+      "A broken law comes from a defect of the engine, a method that it declares, a wrong setting of ours, or an "
+      "error of the law. Of the broken laws {} were looked into: the table names the causes, and reference/README.md "
+      "says more. The other {} are not yet looked into.",
       known, open)});
   document.blocks.emplace_back(std::move(causes));
 }

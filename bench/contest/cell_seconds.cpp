@@ -40,7 +40,7 @@ core::Result<CellSeconds> CellSeconds::parse(const std::string& text, const std:
     if (engine == std::string::npos || read.ec != std::errc() || read.ptr != line.data() + scene ||
         !std::isfinite(seconds) || seconds < 0.0)
       return core::Error{fmt::format("cannot read line {}: '{}'", number, line), where,
-                         "a line is seconds, scene and engine with tabs between; remove the file to begin anew"};
+                         "a line has seconds, scene and engine, separated by tabs; remove the file to start again"};
     known.set(line.substr(scene + 1, engine - scene - 1), line.substr(engine + 1), seconds);
   }
   return known;
@@ -124,12 +124,13 @@ std::string plan_text(const CellSeconds& known, const campaign::Manifest& manife
   std::stable_sort(costs.begin(), costs.end(), [](const Cost& a, const Cost& b) { return a.seconds > b.seconds; });
   // A sum of mostly unknown times is no estimate.
   if (2 * unknown > costs.size())
-    return fmt::format("{} cells, of which {} were measured: too few for an estimate.\n", costs.size(),
+    return fmt::format("{} cells, and seconds of {} of them are known: too few for an estimate.\n", costs.size(),
                        costs.size() - unknown);
   std::string text = fmt::format("{} cells, {:.0f} s of work: about {:.0f} min with --jobs {}.\n", costs.size(), all,
                                  all / 60.0 / static_cast<double>(std::max(jobs, 1U)), jobs);
   if (!known.origin().empty()) text += fmt::format("Measured: {}\n", known.origin());
-  if (unknown > 0) text += fmt::format("{} cells were not measured and count as the mean of their scene.\n", unknown);
+  if (unknown > 0)
+    text += fmt::format("{} cells have no known seconds: each counts as the mean of its scene.\n", unknown);
   text += "The dearest:\n";
   for (std::size_t k = 0; k < std::min(kShown, costs.size()); ++k)
     text += fmt::format("{:8.1f} s  {}  {}\n", costs[k].seconds, costs[k].work->scene, costs[k].work->engine);

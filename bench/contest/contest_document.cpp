@@ -57,11 +57,10 @@ std::string file_name_of(const std::string& what, std::string scene) {
 
 void add_verdicts(Document& document, const ContestTable& table) {
   if (table.scenes.empty()) return;
-  Fold fold{"The same in words: every cell, and how many laws met something there", "verdicts", false, {}};
-  fold.blocks.emplace_back(
-      Paragraph{"Each scene at its own step. \"holds, 9 of 14\": 9 of the 14 laws of mechanics met something in the "
-                "trace and hold; the others had nothing to judge. A word in a place of its own is why an engine has no "
-                "trace there."});
+  Fold fold{"The same in words: every cell, and how many laws could be judged there", "verdicts", false, {}};
+  fold.blocks.emplace_back(Paragraph{
+      "Each scene at its own step. \"holds, 9 of 14\": 9 of the 14 laws of mechanics found something to judge in the "
+      "trace, and all 9 hold. Where an engine has no trace, the cell says why."});
   Table verdicts{"verdicts", "Laws of mechanics, by scene and engine", columns_of(table, {"scene"}), {}};
   for (const SceneTable& scene : table.scenes) {
     std::vector<TableCell> line{{scene.scene}};
@@ -102,9 +101,9 @@ void add_stability(Document& document, const ContestTable& table) {
   }
   if (stands.rows.empty()) return;
   document.blocks.emplace_back(Heading{"What stands, and at which step", "stands"});
-  document.blocks.emplace_back(
-      Paragraph{"Of the steps that ran: a scene's own, 1/60 s where it is longer, and shares and multiples of some "
-                "scenes' own. The table of verdicts is of their own step alone."});
+  document.blocks.emplace_back(Paragraph{
+      "The longest of the steps that ran: each scene's own step, 1/60 s where that is longer, and for some scenes "
+      "fractions and multiples of their own step. The table of verdicts shows the scenes' own steps only."});
   document.blocks.emplace_back(
       Fold{"The longest steps, by scene and engine", "stands_table", false, {std::move(stands)}});
 }
@@ -120,14 +119,14 @@ std::string threads_text(const ContestTable& table, const Entrant& e) {
       ++scenes;
       alike += of->second.size() == 1 ? 1 : 0;
     }
-  return scenes == 0 ? "one thread alone" : fmt::format("alike on {} of {} scenes", alike, scenes);
+  return scenes == 0 ? "one thread only" : fmt::format("same digest on {} of {} scenes", alike, scenes);
 }
 
 }  // namespace
 
 void add_determinism(Document& document, const ContestTable& table) {
   Table repeats{"repeats",
-                "The timed run against the recorded one, and runs of one and two threads",
+                "Digests of the timed and the recorded run, and of runs on one and two threads",
                 {"engine", "cells", "same digest", "other digest", "one and two threads"},
                 {}};
   for (const Entrant& e : table.entrants) {
@@ -149,14 +148,17 @@ void add_determinism(Document& document, const ContestTable& table) {
   if (repeats.rows.empty()) return;
   document.blocks.emplace_back(Heading{"The same bits twice", "repeats"});
   document.blocks.emplace_back(Paragraph{
-      "Recording and timing are two runs of the same work on this machine. An engine that is deterministic "
-      "ends both in the same digest. Where an engine has a number of threads, runs of one and of two must end alike "
-      "too; the others run on one thread here."});
+      "Recording and timing run the same work twice on this machine. Both runs of a deterministic engine end in the "
+      "same digest. If an engine's number of threads can be set, runs on one and on two threads must end in the same "
+      "digest too. The other engines run on one thread here."});
   document.blocks.emplace_back(Fold{"Repeats, by engine", "repeats_table", false, {std::move(repeats)}});
 }
 
 void add_tunings(Document& document, const ContestTable& table) {
-  Table rows{"tunings", "Two rows an engine", {"as its library ships", "as recommended", "what is", "source"}, {}};
+  Table rows{"tunings",
+             "Engines as shipped, and as their manuals recommend",
+             {"as its library ships", "as recommended", "what is", "source"},
+             {}};
   const auto is_here = [&](std::string_view label) {
     return std::any_of(table.entrants.begin(), table.entrants.end(),
                        [label](const Entrant& e) { return e.engine == label; });
@@ -169,9 +171,9 @@ void add_tunings(Document& document, const ContestTable& table) {
                            {std::string(t.source)}});
   if (rows.rows.empty()) return;
   document.blocks.emplace_back(Heading{"Tunings", "tunings"});
-  document.blocks.emplace_back(
-      Paragraph{"What an engine's own manual recommends beside what it ships, the same for all scenes. Where a manual "
-                "says \"more\" and no number, the number is ours."});
+  document.blocks.emplace_back(Paragraph{
+      "The settings that an engine ships with, and those that its manual recommends; the same for all scenes. Where a "
+      "manual says \"more\" without a number, the number is ours."});
   document.blocks.emplace_back(Fold{"Tunings, by engine", "tunings_table", false, {std::move(rows)}});
 }
 
@@ -180,10 +182,10 @@ void add_declarations(Document& document, const ContestTable& table) {
   for (const auto& [label, declared] : table.declarations)
     for (const auto& [key, text] : declared) keys.insert(key);
   if (keys.empty()) return;
-  document.blocks.emplace_back(Heading{"What each declares", "declarations"});
+  document.blocks.emplace_back(Heading{"What each engine declares", "declarations"});
   document.blocks.emplace_back(Paragraph{
-      "Laws are chosen and limits are set by what an engine declares, never by its name. What is not declared "
-      "takes the value that a correct engine of the plainest kind would declare."});
+      "Laws are chosen and limits are set by what an engine declares, never by its name. A property that an engine "
+      "does not declare has the value that the plainest correct engine would declare."});
   Table declared{"declarations", "Declarations side by side", {"engine", "library"}, {}};
   declared.columns.insert(declared.columns.end(), keys.begin(), keys.end());
   for (const Entrant& e : table.entrants) {
@@ -207,8 +209,8 @@ Document contest_document(const ContestTable& table, const std::string& command)
   Document document;
   document.title = "Engines of rigid bodies on scenes with known answers";
   document.lead = fmt::format(
-      "{} engines on {} scenes: at the scenes' own steps every law that applies holds in {} cells, a law is broken in {}, "
-      "and {} have no trace.",
+      "{} engines on {} scenes: at the scenes' own steps every law that applies holds in {} cells, a law is broken "
+      "in {}, and {} have no trace.",
       here, table.scenes.size(), count.holds, count.breaks, count.absent);
   for (const Entrant& e : table.entrants)
     if (!e.absent.empty()) document.lead += fmt::format(" {} is absent ({}).", e.engine, e.absent);

@@ -123,7 +123,7 @@ core::Status complete(Entrant& entrant) {
   auto row = find_engine(id);
   if (!row) return row.error();
   if (!offers(*row.value(), "dynamics"))
-    return core::Error{"it offers no dynamics, and a contest compares motion", id, "broadside list engines"};
+    return core::Error{"it offers no dynamics, so a contest has no motion to compare", id, "broadside list engines"};
   entrant.absent = why_absent(*row.value());
   if (!entrant.absent.empty()) return core::Done{};
   const auto settings_of_it = row.value()->settings;

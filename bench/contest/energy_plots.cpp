@@ -79,16 +79,16 @@ void add_energy_over_time(Document& document, const ContestTable& table) {
     if (plot.curves.empty()) continue;
     plot.text = {scene.scene, words, "time, s", "energy gained since the start, J"};
     plot.y_from_zero = false;
-    plot.lines = {{"as at the start", 0.0, true}};
+    plot.lines = {{"energy at the start", 0.0, true}};
     figures.emplace_back(Figure{file_name_of("energy", scene.scene), svg(plot, Placement::kFile),
                                 svg(plot, Placement::kInline), scene.scene + ". " + left});
   }
   if (figures.empty()) return;
   document.blocks.emplace_back(Heading{"Energy over time", "energy"});
   document.blocks.emplace_back(Paragraph{
-      "Kinetic energy, that of turning too, and that of gravity, against the start. Nothing but a wrench may "
-      "lift a line above zero for long; friction and impacts lower it. Recommended tunings are dashed. A line "
-      "ends where it leaves the picture, which is twice as high as the middle engine needs."});
+      "How much the energy has changed since the start: kinetic energy, rotation included, plus potential energy. "
+      "Only an applied wrench may keep a line above zero; friction and impacts lower it. Recommended tunings are "
+      "dashed. The range is twice what the median engine needs, and a line ends where it leaves that range."});
   for (Block& figure : figures) document.blocks.push_back(std::move(figure));
 }
 

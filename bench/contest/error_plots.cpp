@@ -57,13 +57,13 @@ void add_error_against_cost(Document& document, const ContestTable& table) {
       if (curve.x.empty()) continue;
       for (const auto& [step, entry] : of->second)
         if (!entry.error_unit.empty()) unit = entry.error_unit;
-      words +=
-          fmt::format("{}: error {:.3g} {} at {:.3g} s a second. ", e.engine, curve.y.back(), unit, curve.x.back());
+      words += fmt::format("{}: error {:.3g} {} at {:.3g} s per simulated second. ", e.engine, curve.y.back(), unit,
+                           curve.x.back());
       has_line = has_line || curve.x.size() > 1;
       plot.curves.push_back(std::move(curve));
     }
     if (plot.curves.empty()) continue;
-    plot.text = {scene.scene, words, "cost, seconds of computing a simulated second", "largest error, " + unit};
+    plot.text = {scene.scene, words, "cost, seconds of computing per simulated second", "largest error, " + unit};
     plot.x_scale = plot.y_scale = Scale::kLog;
     plot.y_from_zero = false;
     auto& to = has_line ? figures : marks.blocks;
@@ -74,17 +74,17 @@ void add_error_against_cost(Document& document, const ContestTable& table) {
   if (figures.empty() && marks.blocks.empty()) return;
   document.blocks.emplace_back(Heading{"Error against cost", "error"});
   document.blocks.emplace_back(Paragraph{
-      "Each mark is one step of an engine on a scene with a closed answer: the error that is largest against "
-      "its limit, and what the engine's steps cost. Marks of engines under Node are hollow: their verdicts "
-      "count, their speeds do not, because WebAssembly is not the library's own code. A broken law strikes no "
-      "mark here; the table of verdicts says which are broken." +
+      "Each mark is an engine at one step size, on a scene whose answer is known in closed form: the error that is "
+      "largest relative to its limit, and the cost of the engine's steps. Marks of engines under Node are hollow: "
+      "their verdicts count, but their speeds do not, because WebAssembly is not the library's native code. A mark is "
+      "shown even where a law is broken; the table of verdicts says which laws are." +
       (table.cells_at_once > 1
-           ? fmt::format(" Of the cells {} ran at a time, so these times are those of a busy machine.",
+           ? fmt::format(" The machine ran {} cells at a time, so these are times of a busy machine.",
                          table.cells_at_once)
            : std::string())});
   for (Block& figure : figures) document.blocks.push_back(std::move(figure));
   if (marks.blocks.empty()) return;
-  marks.summary = fmt::format("{} scenes at their own step alone", marks.blocks.size());
+  marks.summary = fmt::format("{} scenes that ran at their own step only", marks.blocks.size());
   document.blocks.emplace_back(std::move(marks));
 }
 

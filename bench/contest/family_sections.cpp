@@ -101,7 +101,7 @@ Notes worked_lines(const Family& family, const ContestTable& table) {
 
 Fold fold_of(const Family& family, const ContestTable& table) {
   Table broken{file_name_of("family", family.name),
-               fmt::format("{}: who breaks a law, or has no trace", family.name),
+               fmt::format("{}: engines that break a law, or have no trace", family.name),
                {"engine", "holds", "broken laws", "furthest from its limit", "why"},
                {}};
   Tally all;
@@ -128,7 +128,7 @@ Fold fold_of(const Family& family, const ContestTable& table) {
   if (!lines.items.empty()) {
     Fold inner;
     inner.id = fold.id + "_lines";
-    inner.summary = fmt::format("{} broken laws, each with its worked line", lines.items.size());
+    inner.summary = fmt::format("{} broken laws, each with its figures", lines.items.size());
     inner.blocks.emplace_back(std::move(lines));
     fold.blocks.emplace_back(std::move(inner));
   }
@@ -140,8 +140,9 @@ Fold fold_of(const Family& family, const ContestTable& table) {
 void add_families(Document& document, const ContestTable& table) {
   if (table.scenes.empty()) return;
   document.blocks.emplace_back(Heading{"Scene by scene", "families"});
-  document.blocks.emplace_back(
-      Paragraph{"A family of scenes a line, which opens. \"friction-cone 4\": this law is broken on four of them."});
+  document.blocks.emplace_back(Paragraph{
+      "Each line is a family of scenes; click on it to open it. \"friction-cone 4\": the law friction-cone is broken "
+      "on four of its scenes."});
   for (const Family& family : families_of(table)) document.blocks.emplace_back(fold_of(family, table));
 }
 

@@ -75,9 +75,9 @@ void add_heaps(Document& document, const ContestTable& table) {
   }
   if (heaps.rows.empty()) return;
   document.blocks.emplace_back(Heading{"Heaps", "heaps"});
-  document.blocks.emplace_back(
-      Paragraph{"How far an engine's cost goes with the number of bodies. Red where a law is broken: such a time is no "
-                "result. Engines under Node are slower than their libraries are. contest --heaps adds 10,000 boxes."});
+  document.blocks.emplace_back(Paragraph{
+      "How an engine's cost grows with the number of bodies. Red: a law is broken, so the time is no result. Engines "
+      "under Node are slower than their native libraries. contest --heaps adds 10,000 boxes."});
   document.blocks.emplace_back(Fold{"Time and depth, by scene and engine", "heaps_table", false, {std::move(heaps)}});
 }
 

@@ -60,12 +60,12 @@ void add_overview(Document& document, const ContestTable& table) {
     }
   if (mosaic.columns.empty()) return;
   mosaic.legend = {{Tone::kGood, false, "", "every law holds", ""},
-                   {Tone::kBad, false, "2", "so many laws are broken; why is known", ""},
+                   {Tone::kBad, false, "2", "this many laws are broken; the causes are known", ""},
                    {Tone::kBad, true, std::string(kUnknown), "broken; not yet looked into", ""},
                    {Tone::kAbsent, false, std::string(kAbsent), "no trace, or nothing judged", ""}};
-  document.blocks.emplace_back(Heading{"Who is right", "overview"});
+  document.blocks.emplace_back(Heading{"Which engine is right", "overview"});
   document.blocks.emplace_back(
-      Paragraph{"A square tells more to a pointer that rests on it; a red one leads to its worked line."});
+      Paragraph{"Hover over a square for details; a red square links to the figures of its broken laws."});
   document.blocks.emplace_back(std::move(mosaic));
 }
 

@@ -19,10 +19,10 @@ struct FastScene {
 
 // Speeds of the fast body; of the needle, of its tip.
 constexpr std::array kFastScenes{
-    FastScene{"rigid:two-spheres:fast", "A ball of 0.1 m at 200 m/s meets another one.", 200.0, 60.0},
-    FastScene{"rigid:bullet-through-cards", "A bullet at 300 m/s meets ten free cards of 3 mm, which it drives on.",
+    FastScene{"rigid:two-spheres:fast", "A ball of 0.1 m at 200 m/s hits another one.", 200.0, 60.0},
+    FastScene{"rigid:bullet-through-cards", "A bullet at 300 m/s hits ten free cards of 3 mm and pushes them along.",
               300.0, 240.0},
-    FastScene{"rigid:needle-through-plate", "The tip of a spinning needle meets a plate of 2 cm.", 20.0, 60.0},
+    FastScene{"rigid:needle-through-plate", "The tip of a spinning needle hits a plate of 2 cm.", 20.0, 60.0},
 };
 constexpr std::array kStepsASecond{60.0, 120.0, 240.0, 480.0, 960.0};
 

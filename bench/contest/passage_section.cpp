@@ -129,9 +129,9 @@ void add_passages(Document& document, const ContestTable& table) {
   if (figures.empty()) return;
   document.blocks.emplace_back(Heading{"What passes through what", "passages"});
   document.blocks.emplace_back(Paragraph{
-      "The law passage, certified over the motion between frames: held, or through. Nothing met: the body had stopped, "
-      "or was turned aside, before the obstacle. The fast scenes run at steps of 1/60 to 1/960 s; the mesh drops at 1 to "
-      "200 m/s at 1/60 s."});
+      "The verdict of the law passage, which follows the motion between frames: held, or through. Nothing met: the "
+      "body had stopped, or was turned aside, before the obstacle. The fast scenes run at steps of 1/60 to 1/960 s; "
+      "the mesh drops at 1 to 200 m/s at 1/60 s."});
   for (Block& figure : figures) document.blocks.push_back(std::move(figure));
   document.blocks.emplace_back(Fold{"The same in words", "passages_table", false, {std::move(words)}});
 }

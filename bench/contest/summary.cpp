@@ -35,7 +35,7 @@ std::string by_count(const std::map<std::string, std::size_t>& counts) {
   std::string text;
   for (std::size_t k = 0; k < std::min(sorted.size(), kMostNamed); ++k)
     text += fmt::format("{}{} {}", k == 0 ? "" : ", ", sorted[k].first, sorted[k].second);
-  if (sorted.size() > kMostNamed) text += fmt::format(", the other {} no more", sorted.size() - kMostNamed);
+  if (sorted.size() > kMostNamed) text += fmt::format(", the other {} as many or fewer", sorted.size() - kMostNamed);
   return text;
 }
 
@@ -50,8 +50,8 @@ std::string who_is_right(const ContestTable& table) {
   }
   std::map<std::string, std::size_t> counts;
   for (const auto& [library, setting] : best) counts[setting.first] = setting.second;
-  return fmt::format("Of {} scenes every law holds, with each engine's best setting, on: {}.", table.scenes.size(),
-                     by_count(counts));
+  return fmt::format("Scenes, of {}, on which every law holds, with each engine's best setting: {}.",
+                     table.scenes.size(), by_count(counts));
 }
 
 // Scenes on which no engine is wrong, and the one on which most are.
@@ -71,9 +71,9 @@ std::string where_all_are_right(const ContestTable& table) {
     if (judged > 0 && wrong == 0) right.push_back(short_name(scene.scene));
     if (wrong > most) most = wrong, of = judged, hardest = short_name(scene.scene);
   }
-  std::string text = right.empty() ? std::string("There is no scene on which nobody breaks a law")
-                                   : fmt::format("Nobody breaks a law on {}", fmt::join(right, ", "));
-  if (most > 0) text += fmt::format("; most do on {}, {} of {} rows", hardest, most, of);
+  std::string text = right.empty() ? std::string("On every scene an engine breaks a law")
+                                   : fmt::format("No engine breaks a law on {}", fmt::join(right, ", "));
+  if (most > 0) text += fmt::format("; a law is broken most often on {}: in {} of {} rows", hardest, most, of);
   return text + ".";
 }
 
@@ -95,9 +95,9 @@ std::string who_is_cheap(const ContestTable& table) {
     ++counts[library_of(cheapest->engine)];
   }
   if (scenes == 0) return {};
-  return fmt::format("Cheapest of the native engines whose every law holds, on so many of {} scenes: {}{}.", scenes,
-                     by_count(counts),
-                     table.cells_at_once > 1 ? " (times of a machine that did several cells at a time)" : "");
+  return fmt::format("Scenes, of {}, on which a native engine is the cheapest of those that break no law: {}{}.",
+                     scenes, by_count(counts),
+                     table.cells_at_once > 1 ? " (the machine ran several cells at a time)" : "");
 }
 
 std::string what_stands(const ContestTable& table) {
@@ -119,8 +119,9 @@ std::string what_stands(const ContestTable& table) {
     for (const auto& [library, does] : stands) counts[library] += does ? 1 : 0;
   }
   if (scenes == 0) return {};
-  return fmt::format("Of {} scenes that stand by statics these stand at 1/60 s, with one setting or another: {}.",
-                     scenes, by_count(counts));
+  return fmt::format(
+      "Scenes, of {} that stand by statics, that stand at 1/60 s with at least one of the engine's settings: {}.",
+      scenes, by_count(counts));
 }
 
 std::string who_repeats(const ContestTable& table) {
@@ -133,7 +134,7 @@ std::string who_repeats(const ContestTable& table) {
         same += entry.was_timed && entry.repeats ? 1 : 0;
       }
   if (timed == 0) return {};
-  return fmt::format("{} of {} timed runs ended in the very bits that the recorded run ended in.", same, timed);
+  return fmt::format("{} of {} timed runs ended in the same bits as the recorded run.", same, timed);
 }
 
 }  // namespace

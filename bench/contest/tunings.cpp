@@ -21,7 +21,7 @@ constexpr std::array<Tuning, 12> kTunings{{
     {"simbody-world[tuning=shipped]", "simbody-world",
      "a tighter accuracy for results that count (here 1e-8), and a smaller slip speed",
      "Simbody, Integrator::setAccuracy and CompliantContactSubsystem::setTransitionVelocity; no number is named"},
-    {"jolt", "jolt[tuning=1]", "one collision step a 1/60 s, rounded up: the same where a step is no longer",
+    {"jolt", "jolt[tuning=1]", "one collision step per 1/60 s, rounded up: as shipped where a step is 1/60 s or less",
      "Jolt's HelloWorld.cpp and PhysicsSystem::Update"},
     {"rapier", "rapier[iterations=16]", "more solver iterations where accuracy counts (here 16 instead of 4)",
      "Rapier's user guide, Integration parameters; no number is named"},

@@ -113,9 +113,9 @@ core::Verdict judge_convergence(const Convergence& c) {
     std::string text;
     if (!f.has_order) {
       holds = f.share <= 1.0;
-      text = fmt::format("{} has no order: {} of its limit at most", f.what, fmt::format("{:.3g}", f.share));
+      text = fmt::format("{} has no order: at most {} of its limit", f.what, fmt::format("{:.3g}", f.share));
     } else if (f.error.back() <= f.floor) {
-      text = fmt::format("{} is exact to rounding and what settles, {:.3g} {}", f.what, f.error.back(), f.unit);
+      text = fmt::format("{} is exact up to rounding and settling, {:.3g} {}", f.what, f.error.back(), f.unit);
     } else {
       const double wanted = (f.is_first_order ? std::min(1.0, c.declared_order) : c.declared_order) - 0.5;
       const double order = std::log2(f.error.front() / f.error.back()) / static_cast<double>(f.error.size() - 1);

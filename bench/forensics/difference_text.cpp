@@ -119,16 +119,16 @@ std::string summary_text(const TraceDifference& t) {
   std::string text = fmt::format("Compared: {}\n", joined(t.groups).empty() ? "digests" : joined(t.groups));
   if (!t.groups_only_in_a.empty()) text += fmt::format("Only in A: {}\n", joined(t.groups_only_in_a));
   if (!t.groups_only_in_b.empty()) text += fmt::format("Only in B: {}\n", joined(t.groups_only_in_b));
-  if (t.is_narrowed) text += "States: one trace holds them in float64, so both are compared as float32\n";
+  if (t.is_narrowed) text += "States: only one trace has them in float64, so both are compared as float32\n";
   for (const DeclaredDifference& d : t.declared)
-    text += fmt::format("Declared otherwise: {}: A {}, B {}\n", d.key, d.a, d.b);
+    text += fmt::format("Declarations differ: {}: A {}, B {}\n", d.key, d.a, d.b);
   text += t.first ? fmt::format("{} steps in both; {} are the same before the first difference\n", t.common_steps,
                                 t.equal_steps)
                   : fmt::format("{} steps in both, and no difference in any\n", t.common_steps);
   if (t.only_in_a > 0) text += fmt::format("{} steps are only in A\n", t.only_in_a);
   if (t.only_in_b > 0) text += fmt::format("{} steps are only in B\n", t.only_in_b);
   if (t.has_digests && t.other_digests > 0)
-    text += fmt::format("{} of the {} steps have another digest\n", t.other_digests, t.common_steps);
+    text += fmt::format("{} of the {} steps have different digests\n", t.other_digests, t.common_steps);
   return text;
 }
 

@@ -17,17 +17,17 @@ std::string party_text(const core::TraceHeader& header) {
 }
 
 std::string contacts_text(const core::TraceHeader& header) {
-  return fmt::format("{} answers with {} contacts, correction {}", header.stamp.engine,
-                     declared(header, "contact_model"), declared(header, "correction"));
+  return fmt::format("{} has {} contacts, correction {}", header.stamp.engine, declared(header, "contact_model"),
+                     declared(header, "correction"));
 }
 
 std::string moments_text(const FlightRule& rule, const core::TraceHeader& a, const core::TraceHeader& b) {
   if (!rule.detects_first() && !rule.replay_detects_first())
-    return "Detection states and boxes are not compared: the engines look for contacts at other moments of the step. ";
+    return "Detection states and boxes are not compared: the engines look for contacts at different moments of the "
+           "step. ";
   return fmt::format(
       "Detection states and boxes are not compared: {} looks for contacts before it moves the bodies, {} after, so "
-      "they "
-      "are of moments dt apart. ",
+      "these states are dt apart in time. ",
       (rule.detects_first() ? a : b).stamp.engine, (rule.detects_first() ? b : a).stamp.engine);
 }
 
@@ -35,10 +35,9 @@ std::string moments_text(const FlightRule& rule, const core::TraceHeader& a, con
 
 std::string flight_expectation(const core::TraceHeader& a, const core::TraceHeader& b) {
   return fmt::format(
-      "until a body is first touched, its states agree within what both engines declare: rounding, and at most h^2 g / "
-      "2 a step of order 1 ({}; {}); a body that turns, within the allowances of the laws turning and gyroscopic, as "
-      "far "
-      "as their sum stays below half a turn",
+      "until a body is first touched, its states agree within what both engines declare: rounding, and at most h^2 g "
+      "/ 2 a step of order 1 ({}; {}); a body that turns agrees within the allowances of the laws turning and "
+      "gyroscopic, while their sum is below half a turn",
       party_text(a), party_text(b));
 }
 
@@ -55,14 +54,13 @@ std::string flight_remark(const FlightRule& rule, const core::TraceHeader& a, co
                         a.broad_margin_m != 0.0 ? a.broad_margin_m : b.broad_margin_m);
   if (rule.outgrown() > 0)
     text += fmt::format(
-        "The orientation of {} bodies is not compared from step {} on: what both engines may be off by has grown to "
-        "half "
-        "a turn, and such motions part. ",
+        "The orientation of {} bodies is not compared from step {} on: the allowance of both engines together has "
+        "grown to half a turn. ",
         rule.outgrown(), rule.first_outgrown());
   if (rule.touches().count() > 0)
     text += fmt::format(
-        "{} of {} bodies were touched, the first in step {}; from then on no bound is derived for them, and they are "
-        "not compared: they must part there, because {}, {}.",
+        "{} of {} bodies were touched, the first in step {}; from then on they are not compared, because no bound is "
+        "derived for them. Their motions must differ there: {}, {}.",
         rule.touches().count(), a.scene.body_count(), rule.touches().first_step(), contacts_text(a), contacts_text(b));
   while (text.ends_with(' ')) text.pop_back();
   return text;

@@ -145,12 +145,12 @@ core::Status compare_flights(const core::TraceReader& a, const core::TraceReader
 core::Status compare_simulations(const core::TraceReader& a, const core::TraceReader& b, Replay& replay) {
   if (!validation::are_twins(a.header(), b.header())) {
     if (a.header().groups == 0)
-      return core::Error{"it records digests alone, and those of another engine mean something else", a.path().string(),
-                         "record it with --record full"};
+      return core::Error{"it records only digests, and those of different engines cannot be compared",
+                         a.path().string(), "record it with --record full"};
     return compare_flights(a, b, replay);
   }
   DifferenceRule bits;
-  replay.expectation = "one method on one scene: every bit agrees";
+  replay.expectation = "the same method on the same scene: every bit agrees";
   return compare_by(bits, a, b, replay);
 }
 

@@ -231,7 +231,7 @@ class Scorer {
         Specimen spoiled = *sound;
         t.apply(spoiled);
         if (!spoiled.is_spoilable) {
-          row.why_not_run = "the recording has nothing of the kind that it spoils";
+          row.why_not_run = "the recording has nothing that this mutation could spoil";
         } else {
           const core::Result<Specimen> subject = std::move(spoiled);
           const core::Result<Specimen> baseline = *sound;

@@ -99,7 +99,7 @@ MutationRow run(const RigidTampering& t, const Specimen& sound) {
   if (spoiled.is_spoilable)
     judge_into(row, spoiled, t.against_the_sound_one ? &sound : nullptr);
   else
-    row.why_not_run = "the recording has nothing of the kind that it spoils";
+    row.why_not_run = "the recording has nothing that this mutation could spoil";
   return row;
 }
 

@@ -42,8 +42,10 @@ core::Result<std::vector<PaperRow>> run_campaign(const PaperRequest& request, co
   std::size_t done = static_cast<std::size_t>(std::count(expected_s.begin(), expected_s.end(), 0.0));
   double done_s = 0.0;
   if (whole_s > 0.0)
-    fmt::print(stderr, "paper: {} of {} cells, about {} left on a machine like the one that this was learned on\n",
-               done, cells.value().size(), minutes(whole_s));
+    fmt::print(
+        stderr,
+        "paper: {} of {} cells, about {} left, if this machine is as fast as the one that costs were measured on\n",
+        done, cells.value().size(), minutes(whole_s));
   const auto start = Clock::now();
   const auto tell = [&](const campaign::GroupEnd& end) {
     for (std::size_t k = end.first; k < end.first + end.cells.size(); ++k) {

@@ -127,7 +127,7 @@ core::Result<campaign::JobPointer> read(datasets::TableReader& table, datasets::
     if (key == "counts")
       for (const std::string& text : list) request.plan.counts.push_back(count_of(text));
     if (key != "models" && key != "counts")
-      errors.add(table.line(), "[vary] " + key + " is nothing that the paper varies", "vary models and counts");
+      errors.add(table.line(), "[vary] " + key + " is not a value that the paper varies", "vary models and counts");
   }
   if (std::count(request.plan.counts.begin(), request.plan.counts.end(), 0U) > 0)
     errors.add(table.line(), "[vary] counts has an entry that is not a whole number above 0",

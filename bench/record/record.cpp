@@ -51,7 +51,7 @@ core::Status add_taken(core::Result<std::optional<core::FrameRecord>> taken, Rec
 
 void tell_resume(const core::Stamp& stamp, const std::optional<ResumePoint>& point, std::uint64_t frames) {
   if (!point)
-    fmt::print(stderr, "{}: nothing to go on from, so it starts at the beginning\n", stamp.label());
+    fmt::print(stderr, "{}: no trace to resume from, so it starts at the beginning\n", stamp.label());
   else if (point->is_complete)
     fmt::print(stderr, "{}: its trace is complete\n", stamp.label());
   else

@@ -28,15 +28,16 @@ core::Status check_engine(const core::TraceHeader& wanted) {
     return core::Error{"this engine keeps more state than a trace holds, so it cannot go on from one", stamp.engine,
                        kStartAnew};
   if (stamp.settings.find("printed-E8") != std::string::npos)
-    return core::Error{"printed-E8 races, so what follows would not be what the first part led to", stamp.label(),
-                       kStartAnew};
+    return core::Error{"printed-E8 has a data race, so the resumed run would differ from an uninterrupted one",
+                       stamp.label(), kStartAnew};
   return core::Done{};
 }
 
 core::Status check_stamp(const core::Stamp& found, const core::Stamp& wanted, const std::string& where) {
   const auto refuse = [&where](const char* what, const std::string& has, const std::string& wants) {
     return core::Error{fmt::format("it was recorded with another {} ('{}', this run has '{}')", what, has, wants),
-                       where, "use what recorded it, or run without --resume to start at the beginning"};
+                       where,
+                       "use the engine and build that recorded it, or run without --resume to start at the beginning"};
   };
   if (found.scene_digest != wanted.scene_digest)
     return refuse("scene", fmt::format("{} {:016x}", found.scene_name, found.scene_digest),
@@ -76,7 +77,7 @@ core::Result<ResumePoint> point_at(core::TraceReader trace, const CellRequest& r
   }
   if (core::Status s = core::check_scene(scene); !s)
     return core::Error{
-        fmt::format("the states of its last frame cannot be gone on from: {}: {}", s.error().where, s.error().what),
+        fmt::format("no run can go on from the states of its last frame: {}: {}", s.error().where, s.error().what),
         trace.path().string(), kStartAnew};
   const std::uint64_t step = frame.value().step;
   return ResumePoint{std::move(trace), std::move(scene), step, false};

@@ -210,7 +210,8 @@ core::Result<InterleavedRows> run_interleaved(const InterleavePlan& plan, const 
     takes_turns = takes_turns && takes.value();
   }
   if (!takes_turns)
-    fmt::print(stderr, "broadside: compare: one of the programs knows no turns: whole processes run one by one\n");
+    fmt::print(stderr,
+               "broadside: compare: one of the programs cannot take turns: whole processes run one after the other\n");
   const std::vector<int> cores = own_cores();
   Progress proof("proving", 2 * plan.scenes.size());
   std::vector<std::size_t> scenes;  // scenes that are timed in this round

@@ -50,7 +50,7 @@ Turns::~Turns() {
 }
 
 core::Status Turns::join(const std::string& text) {
-  const core::Error error{"is no turn", "--turns " + text,
+  const core::Error error{"is not a turn", "--turns " + text,
                           "compare --interleave writes first:FD:CORE or second:FD:CORE"};
   const std::size_t colon = text.find(':');
   const std::size_t next = colon == std::string::npos ? colon : text.find(':', colon + 1);

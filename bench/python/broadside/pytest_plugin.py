@@ -124,7 +124,7 @@ def _digests(path):
 
 def _other_digests(baseline, found):
     if baseline["scene"] != found["scene"]:
-        return f"the scene is another: its digest is {found['scene']}, and the baseline's {baseline['scene']}"
+        return f"the scene differs: its digest is {found['scene']}, and the baseline's is {baseline['scene']}"
     steps = sorted({*baseline["digests"], *found["digests"]}, key=int)
     wrong = [step for step in steps if baseline["digests"].get(step) != found["digests"].get(step)]
     if not wrong:

@@ -180,7 +180,7 @@ void add_traces(py::module_& module) {
         const auto& frame = self.cast<const HeldFrame&>();
         const Column& column = column_named(path, frame.groups, "this frame");
         if (column.layout == Layout::kOffsets || column.layout == Layout::kWindows)
-          throw Raised({path + " is of all frames together", "a frame", "ask the trace for it"});
+          throw Raised({path + " belongs to the whole trace", "a frame", "ask the trace for it"});
         return rows_of_frame(frame, column, self);
       });
   py::class_<OpenTrace, std::shared_ptr<OpenTrace>>(module, "Trace")

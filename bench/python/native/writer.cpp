@@ -95,7 +95,8 @@ class FrameFiller {
     const bool is_first = filled_.insert(column.records).second;
     if (!is_first && core::records_of(frame_, column.records).count != count)
       refuse(open_, frame_.step,
-             "has " + std::to_string(count) + " rows of " + short_path(column) + " and another number before it",
+             "has " + std::to_string(count) + " rows of " + short_path(column) +
+                 " and a different number in an array before it",
              "give every array of a group as many rows");
     const auto rows = core::resized_records(frame_, column.records, count);
     const std::size_t bytes = core::row_bytes(column);
@@ -141,7 +142,7 @@ core::FrameRecord frame_of(const OpenWriter& open, std::uint64_t step, const py:
   }
   for (const auto& item : arrays)
     if (!known.contains(py::str(item.first).cast<std::string>()))
-      refuse(open, step, "has " + py::str(item.first).cast<std::string>() + ", and the first frame had not",
+      refuse(open, step, "has " + py::str(item.first).cast<std::string>() + ", which the first frame did not have",
              "give the same groups in every frame");
   if ((open.header.groups & core::bit(core::Group::kWideBodies)) != 0U) narrow(frame);
   frame.pairs_demanded = frame.pairs.size();

@@ -206,7 +206,7 @@ TEST(Bisection, AKilledOneGoesOnWhereItWas) {
   EXPECT_EQ(killed.exit_code, -1);
   const Ended ended = run_program(arguments);
   EXPECT_EQ(ended.exit_code, 1) << ended.out << ended.err;
-  EXPECT_NE(ended.err.find("goes on: 2 runs are known"), std::string::npos) << ended.err;
+  EXPECT_NE(ended.err.find("continuing: 2 runs are already known"), std::string::npos) << ended.err;
   const json result = json::parse(ended.out);
   EXPECT_EQ(answer_of(result, "counter")["first_changed"]["title"], builds[2]);
   // Good, bad, the run that killed the bisection, good again, and the two builds between: no finished run is repeated.
@@ -234,7 +234,7 @@ TEST(Bisection, OneWaitsForWhatAKilledOneStartedAndMendsItsClone) {
   EXPECT_EQ(run_program(arguments(build)).exit_code, -1);
   const Ended ended = run_program(arguments(build));
   EXPECT_EQ(ended.exit_code, 1) << ended.out << ended.err;
-  EXPECT_NE(ended.err.find("bisect: waiting for another one in "), std::string::npos) << ended.err;
+  EXPECT_NE(ended.err.find("bisect: waiting for another bisect in "), std::string::npos) << ended.err;
   EXPECT_EQ(read_text(log).substr(0, 18), "killed\nlate\nbuilt\n") << read_text(log);
   // Another build command makes other builds.
   const Ended other = run_program(arguments("true"));

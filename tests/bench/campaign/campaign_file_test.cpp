@@ -130,7 +130,7 @@ TEST(Manifest, ADamagedOrLaterOneIsRefused) {
   EXPECT_NE(refused(R"({"format": "broadside-campaign", "version": 2, "name": "a", "build": "b", "cells": [{"id":
     "../../x", "scene": "s", "engine": "e", "frames": 1, "repetitions": 0, "processes": 1, "against": "",
     "stand_in": false, "time_limit_s": 1, "needs_gpu": false, "turns": "0000000000000001"}]})")
-                .find("no proper id"),
+                .find("no valid id"),
             std::string::npos);
 }
 
@@ -228,7 +228,7 @@ TEST(CampaignFile, RefusesWhatThePaperDoesNotVary) {
   const std::string start = "name = \"p\"\nengine = \"octree-cpu\"\npaper = [\"table5\"]\n";
   EXPECT_EQ(refusal(start), "accepted");
   EXPECT_NE(refusal(start + "scenes = [\"x\"]").find("unknown key 'scenes'"), std::string::npos);
-  EXPECT_NE(refusal(start + "[vary]\nn = [1]").find("nothing that the paper varies"), std::string::npos);
+  EXPECT_NE(refusal(start + "[vary]\nn = [1]").find("not a value that the paper varies"), std::string::npos);
   EXPECT_NE(refusal(start + "[vary]\ncounts = [\"many\"]").find("not a whole number"), std::string::npos);
   const auto unknown = read("name = \"p\"\nengine = \"octree-cpu\"\npaper = [\"table55\"]\n");
   const auto manifest = bench::campaign::make_manifest(unknown.value());

@@ -42,7 +42,7 @@ TEST(Candidates, OfTwoStatesOfAMesh) {
         run_program({"agree", "--motion", kind, "--case", (folder / "queries" / (kind + ".csv")).string(), "--engine",
                      "feature-impact", "--out", (folder / "out").string()});
     EXPECT_EQ(asked.exit_code, 0) << asked.out << asked.err;
-    EXPECT_EQ(asked.out.find("the file says otherwise"), std::string::npos);
+    EXPECT_EQ(asked.out.find("the file disagrees"), std::string::npos);
   }
 }
 

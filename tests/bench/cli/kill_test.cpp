@@ -220,7 +220,7 @@ TEST(Resume, WithNothingThereItStartsAtTheBeginning) {
   run.emplace_back("--resume");
   const Ended ended = run_program(run);
   EXPECT_EQ(ended.exit_code, 0) << ended.err;
-  EXPECT_NE(ended.err.find("nothing to go on from"), std::string::npos) << ended.err;
+  EXPECT_NE(ended.err.find("no trace to resume from"), std::string::npos) << ended.err;
   EXPECT_EQ(digests_of(folder / "out" / kName).size(), 30U);
 }
 

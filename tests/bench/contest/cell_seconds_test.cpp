@@ -38,14 +38,15 @@ TEST(CellSeconds, ThePlanSumsAndNamesTheDearest) {
   const std::string text = plan_text(known(), manifest(), 2);
   EXPECT_NE(text.find("4 cells, 94 s of work: about 1 min with --jobs 2"), std::string::npos) << text;
   EXPECT_NE(text.find("A machine; 2 cells at a time"), std::string::npos);
-  EXPECT_NE(text.find("2 cells were not measured"), std::string::npos);
+  EXPECT_NE(text.find("2 cells have no known seconds"), std::string::npos);
   EXPECT_LT(text.find("60.0 s  b[x=1,y=2]"), text.find("24.0 s  c"));
 }
 
 TEST(CellSeconds, ASumThatIsMostlyGuessedIsNoEstimate) {
   CellSeconds few;
   few.set("a", "one", 4.0);
-  EXPECT_NE(plan_text(few, manifest(), 2).find("4 cells, of which 1 were measured: too few"), std::string::npos);
+  EXPECT_NE(plan_text(few, manifest(), 2).find("4 cells, and seconds of 1 of them are known: too few"),
+            std::string::npos);
 }
 
 // A machine that takes twice as long for what it finished takes twice as long for what is left.

@@ -210,8 +210,8 @@ TEST_F(Traces, SayWhatIsDeclaredOtherwiseAndWhichStatesAreNarrowed) {
   EXPECT_TRUE(found.value().is_same());
   EXPECT_TRUE(found.value().is_narrowed);
   const std::string text = bench::difference_text(a.value(), b, found.value());
-  EXPECT_NE(text.find("Declared otherwise: motion: A rigid, B translate"), std::string::npos) << text;
-  EXPECT_NE(text.find("Declared otherwise: friction: A pyramid, B not declared"), std::string::npos) << text;
+  EXPECT_NE(text.find("Declarations differ: motion: A rigid, B translate"), std::string::npos) << text;
+  EXPECT_NE(text.find("Declarations differ: friction: A pyramid, B not declared"), std::string::npos) << text;
   EXPECT_NE(text.find("compared as float32"), std::string::npos) << text;
   const std::string json = bench::difference_json(a.value(), b, found.value());
   EXPECT_NE(json.find("\"declared_otherwise\""), std::string::npos) << json;

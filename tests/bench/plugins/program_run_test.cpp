@@ -153,7 +153,7 @@ TEST(ProgramRun, AProgramThatNeverSaysHelloIsRefused) {
   const Ended ended = run_one_that_never_says_hello("1.5");
   EXPECT_EQ(ended.exit_code, 2) << ended.out;
   EXPECT_TRUE(is_one_line(ended.err)) << ended.err;
-  EXPECT_NE(ended.err.find("asking it what it is: no end after 1.5 s"), std::string::npos) << ended.err;
+  EXPECT_NE(ended.err.find("asking it to describe itself: no end after 1.5 s"), std::string::npos) << ended.err;
   EXPECT_NE(ended.err.find("more time: BROADSIDE_HELLO_LIMIT_S=60"), std::string::npos) << ended.err;
 }
 

@@ -105,8 +105,9 @@ def test_shapes_types_and_groups(writer):
     refused(writer, "has no body/velocity", body={key: BODY[key] for key in BODY if key != "velocity"})
     writer.append(body=BODY, point=POINT)
     refused(writer, "has no point/a", body=BODY)
-    refused(writer, "has pairs/pairs, and the first frame had not", body=BODY, point=POINT, pairs=[[0, 1]])
-    refused(writer, "has 2 rows of point/b and another number before it", body=BODY, point={**POINT, "b": [1, 1]})
+    refused(writer, "has pairs/pairs, which the first frame did not have", body=BODY, point=POINT, pairs=[[0, 1]])
+    refused(writer, "has 2 rows of point/b and a different number in an array before it", body=BODY,
+            point={**POINT, "b": [1, 1]})
     refused(writer, "point/a: it holds -1 to -1; give numbers from 0 to 4294967295", body=BODY,
             point={**POINT, "a": [-1]})
     refused(writer, "point/a: it is of type float64; give whole numbers", body=BODY, point={**POINT, "a": [0.5]})
