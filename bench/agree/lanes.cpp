@@ -199,7 +199,7 @@ core::Result<std::string> said_by_child(std::string_view engine, const AskLimits
   while (wait_for(lanes, limits.seconds_per_query).empty() || !lane.listen()) lane.watch(limits.seconds_per_query);
   if (lane.ended_with(kRefused)) return core::Error{lane.said(), "", "", core::Exit::kMissing};
   if (!lane.ended_with(kAllAsked))
-    return core::Error{"it died when it was made: " + lane.last_words(kLoad_s), std::string(engine), "",
+    return core::Error{"it died while it was created: " + lane.last_words(kLoad_s), std::string(engine), "",
                        core::Exit::kMissing};
   return lane.said();
 }
@@ -229,7 +229,7 @@ core::Status ask_in_children(std::string_view engine, std::size_t questions, con
       if (!is_done) {
         const std::string words = lane->last_words(limits.seconds_per_query);
         if (!lane->died_in_a_query())
-          return core::Error{"it died when its shapes were loaded: " + lane->last_words(kLoad_s), std::string(engine),
+          return core::Error{"it died while its shapes were loaded: " + lane->last_words(kLoad_s), std::string(engine),
                              "", core::Exit::kMissing};
         on_death(lane->at(), lane->fate(), words);
         lane->go_on_behind(lane->at());

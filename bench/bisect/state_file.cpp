@@ -44,7 +44,7 @@ core::Result<State> read_state(const std::filesystem::path& folder, const std::s
   try {
     const Json document = Json::parse(text.value());
     if (document.at("format") != kStateFormat || document.at("version") != kStateVersion)
-      return core::Error{"it is no bisection of this version", file.string(), advice};
+      return core::Error{"it is not a bisection of this version", file.string(), advice};
     if (document.at("question") != question)
       return core::Error{"it holds a bisection of other builds, or of another command", file.string(), advice};
     state.seen = seen_from_json(document.at("seen"));

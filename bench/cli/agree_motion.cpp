@@ -200,7 +200,7 @@ bool has_wrong_answers(const MotionTable& table) {
 core::Exit agree_motion(const MotionArguments& a) {
   const MotionKind kind = motion_kind_named(a.kind);
   if (!a.mesh.empty() && kind != MotionKind::kMeshes)
-    return complain({"a mesh is given for " + a.kind, "--mesh", "give it with --motion meshes"});
+    return complain({"it does not apply to " + a.kind, "--mesh", "leave it out, or use --motion meshes"});
   std::vector<MotionEngineSpec> engines;
   for (const std::string& text : a.engines.empty() ? default_engines(kind) : a.engines) {
     auto engine = parse_motion_engine(text);

@@ -162,7 +162,7 @@ core::Exit agree(const AgreeArguments& a) {
   if (!a.case_file.empty()) return repeat_case(a);
   const PairKind kind = pair_kind_named(a.kind);
   if (!a.mesh.empty() && kind != PairKind::kMeshes)
-    return complain({"a mesh is given for " + a.kind, "--mesh", "give it with --pairs meshes"});
+    return complain({"it does not apply to " + a.kind, "--mesh", "leave it out, or use --pairs meshes"});
   if (core::Status s = prepare_folder(a.folder); !s) return complain(s.error());
   auto source = PairSource::make(kind, a.seed, a.mesh);
   if (!source) return complain(source.error());
@@ -200,7 +200,7 @@ core::Exit agree(const AgreeArguments& a) {
 void add_agree(CLI::App& program, core::Exit& exit) {
   auto a = std::make_shared<AgreeArguments>();
   CLI::App* command = program.add_subcommand(
-      "agree", "How far narrow phases agree with the exact answer, on random pairs by separation and degeneracy");
+      "agree", "Compare narrow phases with the exact answer on random pairs, sorted by separation and degeneracy");
   const std::vector<std::string> kinds(std::begin(kPairKinds), std::end(kPairKinds));
   command->add_option("--pairs", a->kind, "Bodies of the pairs; kissing = boxes that touch")
       ->check(CLI::IsMember(kinds))
@@ -223,7 +223,9 @@ void add_agree(CLI::App& program, core::Exit& exit) {
   command->add_option("--time-limit", a->limits.seconds_per_query, "Processor seconds after which a query is stopped")
       ->check(more_than_zero, "POSITIVE")
       ->capture_default_str();
-  command->add_option("--memory-limit", a->limits.memory_mib, "MiB that an engine's process may take; 0 = no limit")
+  command
+      ->add_option("--memory-limit", a->limits.memory_mib,
+                   "MiB of memory that an engine's process may take; 0 = no limit")
       ->capture_default_str();
   command->add_option("--processes", a->limits.processes, "Processes that run side by side (default: one per core)")
       ->check(CLI::Range(1, 256));

@@ -81,8 +81,8 @@ void add_work(CLI::App& command, BisectArguments& a) {
   bisect::Question& question = a.question;
   command.add_option(
       "--command", question.command,
-      "What a shell runs on each build. {build}: its file or folder; {program}: the Broadside program in "
-      "it; {out}: where results belong");
+      "The shell command to run on each build. {build}: its file or folder; {program}: the Broadside program in it; "
+      "{out}: the folder for its results");
   command.add_option("--scene", question.work.scene,
                      "Instead of --command: the program of each build runs and checks this scene");
   command
@@ -135,7 +135,7 @@ void add_gate(CLI::App& command, BisectArguments& a) {
 void add_bisect(CLI::App& program, core::Exit& exit) {
   auto a = std::make_shared<BisectArguments>();
   CLI::App* command = program.add_subcommand(
-      "bisect", "The first build that changes a verdict, contacts, a digest, a counter or a time");
+      "bisect", "Find the first build that changes a verdict, contacts, a digest, a counter or a time");
   add_builds(*command, *a);
   add_work(*command, *a);
   add_gate(*command, *a);

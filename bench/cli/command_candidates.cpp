@@ -143,9 +143,9 @@ void add_candidates(CLI::App& program, core::Exit& exit) {
   auto a = std::make_shared<CandidatesArguments>();
   CLI::App* command = program.add_subcommand(
       "candidates",
-      "Candidates of continuous collision: vertices and faces, and edges, of a moving surface whose boxes, swept over "
-      "the step, overlap. Engines find pairs of triangles and must agree (exit 1 if they do not); times are of this "
-      "one call");
+      "Find candidates of continuous collision on a moving surface: pairs of a vertex and a face, and of two edges, "
+      "whose boxes, swept over the step, overlap. Engines find pairs of triangles and must agree (exit 1 if they do "
+      "not); times are of this one call");
   command
       ->add_option("MOTION", a->source.start,
                    "A motion from the list below; with --to, the mesh file at the start of the step")

@@ -67,8 +67,8 @@ core::Exit check(const CheckArguments& a) {
 
 void add_check(CLI::App& program, core::Exit& exit) {
   auto a = std::make_shared<CheckArguments>();
-  CLI::App* command =
-      program.add_subcommand("check", "Judge traces: every validator that applies, with its limit and origin");
+  CLI::App* command = program.add_subcommand(
+      "check", "Judge traces with every validator that applies, and show each limit and its origin");
   command->add_option("TRACE", a->traces, "Trace files (.h5), also unfinished ones (.h5.part)")->required();
   command->add_option("--against", a->against, "Another trace of the same scene to compare with");
   command->add_option("--validator", a->only, "Run only this validator; may be repeated")

@@ -87,8 +87,7 @@ core::Exit compare(const CompareArguments& a) {
 
 void add_compare(CLI::App& program, core::Exit& exit) {
   auto a = std::make_shared<CompareArguments>();
-  CLI::App* command =
-      program.add_subcommand("compare", "Two runs side by side: what got worse first, then what got slower");
+  CLI::App* command = program.add_subcommand("compare", "Compare two runs: first what got worse, then what got slower");
   command->add_option("WHAT", a->what, "BASE HEAD: folders of two runs; with --interleave: BIN_BASE BIN_HEAD SCENE...")
       ->required();
   command->add_flag("--interleave", a->is_interleaved,

@@ -132,7 +132,7 @@ core::Exit converge(const ConvergeArguments& a) {
   auto cells = a.engines.make();
   if (!cells) return complain(cells.error());
   if (cells.value().size() != 1)
-    return complain({"converge looks at one engine", "--engine", "name one, and repeat the command for others"});
+    return complain({"converge runs one engine", "--engine", "name one, and repeat the command for others"});
   const CellSpec& spec = cells.value().front();
   const ScratchFolder scratch;
   std::vector<fs::path> traces;
@@ -160,7 +160,8 @@ core::Exit converge(const ConvergeArguments& a) {
 void add_converge(CLI::App& program, core::Exit& exit) {
   auto a = std::make_shared<ConvergeArguments>();
   CLI::App* command = program.add_subcommand(
-      "converge", "An engine's errors against a scene's exact answer at h, h/2 and h/4, and the order that they show");
+      "converge",
+      "Measure an engine's errors against a scene's exact answer at h, h/2 and h/4, and the order of convergence");
   a->scene.add_to(*command);
   a->engines.add_to(*command);
   command->add_option("--json", a->json, "Write the errors and the verdict here");

@@ -38,7 +38,7 @@ core::Exit diff(const DiffArguments& arguments) {
 void add_diff(CLI::App& program, core::Exit& exit) {
   auto a = std::make_shared<DiffArguments>();
   CLI::App* command = program.add_subcommand(
-      "diff", "First divergence of two traces: step, body or pair, field, both values, and the contacts before");
+      "diff", "Find where two traces first differ: step, body or pair, field, both values, and the contacts before");
   command->add_option("A", a->a, "A trace (.h5), also an unfinished one (.h5.part)")->required();
   command->add_option("B", a->b, "Another trace of the same scene")->required();
   command->add_flag("--json", a->as_json, "As JSON");

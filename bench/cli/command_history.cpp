@@ -66,7 +66,7 @@ core::Exit history(const HistoryArguments& a) {
 void add_history(CLI::App& program, core::Exit& exit) {
   auto a = std::make_shared<HistoryArguments>();
   CLI::App* command =
-      program.add_subcommand("history", "Runs over days in a local file: append one, or show series and change points");
+      program.add_subcommand("history", "Keep runs in a local file: append one, or show series and change points");
   command->add_option("FILE", a->file, "The history, an SQLite file; made when it is absent")->required();
   command->add_option("--add", a->folders, "Append the rows of these folders instead of showing anything");
   command->add_option("--at", a->at, "With --add: when the run was made, ISO 8601 (default: now)");

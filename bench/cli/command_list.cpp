@@ -157,8 +157,7 @@ core::Exit list(const std::string& which, bool as_json) {
 void add_list(CLI::App& program, core::Exit& exit) {
   auto which = std::make_shared<std::string>();
   auto as_json = std::make_shared<bool>(false);
-  CLI::App* command =
-      program.add_subcommand("list", "What there is: engines and their settings, scenes, validators, meshes");
+  CLI::App* command = program.add_subcommand("list", "List engines and their settings, scenes, validators and meshes");
   command->add_option("WHAT", *which, "engines, scenes, validators or meshes (default: all)")
       ->check(CLI::IsMember({"engines", "scenes", "validators", "meshes"}));
   command->add_flag("--json", *as_json, "As JSON");

@@ -74,7 +74,7 @@ void add_mesh(CLI::App& program, core::Exit& exit) {
   auto name = std::make_shared<std::string>();
   auto as_json = std::make_shared<bool>(false);
   CLI::App* command = program.add_subcommand(
-      "mesh", "What a mesh is: counts, topology, degenerate and crossing triangles, volume, covering radius");
+      "mesh", "Describe a mesh: counts, topology, degenerate and crossing triangles, volume, covering radius");
   command->add_option("MESH", *name, "A mesh file, or a name of the catalogue (broadside list meshes)")->required();
   command->add_flag("--json", *as_json, "As JSON");
   command->callback([name, as_json, &exit] { exit = show_mesh(*name, *as_json); });

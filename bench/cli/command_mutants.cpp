@@ -129,7 +129,7 @@ void add_mutants(CLI::App& program, core::Exit& exit) {
   auto a = std::make_shared<MutantArguments>();
   CLI::App* command = program.add_subcommand(
       "mutants", "Run wrong engines and spoiled traces through the validators, and show which validator catches which");
-  command->add_option("--only", a->only, "Run this mutation alone, and no sound scene");
+  command->add_option("--only", a->only, "Run only this mutation, and no sound scene");
   command->add_option("--scenes", a->scenes, "Random scenes on which no validator may reject the sound engine")
       ->capture_default_str();
   command->add_flag("--reduced", a->is_reduced, "All mutations, but a few sound scenes only: for every build");

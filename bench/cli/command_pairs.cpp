@@ -100,8 +100,8 @@ void add_pairs(CLI::App& program, core::Exit& exit) {
   auto a = std::make_shared<PairsArguments>();
   CLI::App* command = program.add_subcommand(
       "pairs",
-      "Overlapping pairs of boxes: engines must agree (exit 1 if they do not); times are of this one call. Prints "
-      "what kind of set the boxes are, and which algorithm was used by an engine that has several");
+      "Find overlapping pairs of boxes; engines must agree (exit 1 if they do not); times are of this one call. "
+      "Prints what kind of set the boxes are, and which algorithm was used by an engine that has several");
   command
       ->add_option(
           "BOXES", a->boxes,

@@ -112,7 +112,8 @@ std::string list_of_experiments() {
 void add_paper(CLI::App& program, core::Exit& exit) {
   auto a = std::make_shared<PaperArguments>();
   CLI::App* command = program.add_subcommand(
-      "paper", "The paper's experiments: our tables and figures beside the published ones, judged and timed");
+      "paper",
+      "Repeat the paper's experiments, judged and timed, with our tables and figures beside the published ones");
   command->add_option("EXPERIMENT", a->asked.experiments, "What to repeat; see below")->required();
   command->add_option("--frames", a->asked.plan.frames, "Frames of each run")
       ->check(CLI::Range(1U, 1000000U))

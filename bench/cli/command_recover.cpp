@@ -29,7 +29,7 @@ void add_recover(CLI::App& program, core::Exit& exit) {
   auto part = std::make_shared<std::string>();
   auto out = std::make_shared<std::string>();
   CLI::App* command =
-      program.add_subcommand("recover", "Make a proper trace of what a killed or interrupted run left as .part");
+      program.add_subcommand("recover", "Make a complete trace from the .part file of a killed or interrupted run");
   command->add_option("FILE", *part, "The unfinished trace, NAME.h5.part")->required();
   command->add_option("--out", *out, "Where to write it (default: the name without .part)");
   command->callback([part, out, &exit] { exit = recover(*part, *out); });

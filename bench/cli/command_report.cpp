@@ -147,7 +147,7 @@ core::Exit report(const ReportArguments& a) {
 void add_report(CLI::App& program, core::Exit& exit) {
   auto a = std::make_shared<ReportArguments>();
   CLI::App* command =
-      program.add_subcommand("report", "One page from the rows that run, check and time left in folders");
+      program.add_subcommand("report", "Make one page from the rows that run, check and time left in folders");
   command->add_option("DIR", a->folders, "Folders with cells.json, verdicts.json, samples.json")->required();
   command->add_option("--html", a->html, "Write one HTML file that needs no network");
   command->add_option("--markdown", a->markdown, "Write Markdown that fits a pull-request comment");

@@ -141,8 +141,8 @@ void add_run(CLI::App& program, core::Exit& exit) {
   CLI::App* command = program.add_subcommand("run", "Run engines over a scene and record a trace of each");
   a->scene.add_to(*command);
   a->engines.add_to(*command);
-  CLI::Option* cell = command->add_option("--cell", a->cell, "Do this cell of the campaign in the folder SCENE");
-  command->add_option("--shard", a->shard, "Do the i-th of n shares of the campaign in the folder SCENE: i/n")
+  CLI::Option* cell = command->add_option("--cell", a->cell, "Run only this cell of the campaign in the folder SCENE");
+  command->add_option("--shard", a->shard, "Run the i-th of n shares of the campaign in the folder SCENE: i/n")
       ->excludes(cell);
   command->add_option("--record", a->level, "What to record: full, digest (one number a frame) or none")
       ->check(CLI::IsMember({"full", "digest", "none"}))
@@ -154,7 +154,7 @@ void add_run(CLI::App& program, core::Exit& exit) {
       "--window", a->windows,
       "Record only steps FIRST:LAST, such as 100:200; may be repeated. The last step is always recorded");
   command->add_flag("--resume", a->resume,
-                    "Go on from the traces that an earlier run of the same stamp left in --out; complete ones stay");
+                    "Continue the traces that an earlier run of the same stamp left in --out; complete ones stay");
   command->add_option("--narrow-every", a->narrow_every,
                       "Narrow-phase engines measure every k-th frame (default: about 30 frames of the run)");
   command->add_option("--out", a->folder, "Folder for the traces and cells.json")->capture_default_str();

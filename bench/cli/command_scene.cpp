@@ -123,10 +123,10 @@ core::Exit show_scene(const SceneCommand& a) {
 
 void add_scene(CLI::App& program, core::Exit& exit) {
   auto a = std::make_shared<SceneCommand>();
-  CLI::App* command = program.add_subcommand("scene", "What a scene holds, and a picture of it");
+  CLI::App* command = program.add_subcommand("scene", "Describe a scene, and draw a picture of it");
   a->scene.add_to(*command);
   command->add_option("--picture", a->picture, "Write an SVG picture of its start here");
-  command->add_option("--after", a->after, "A second panel in the picture: after so many frames of octree-cpu");
+  command->add_option("--after", a->after, "Add a second panel to the picture: after this many frames of octree-cpu");
   command->add_flag("--json", a->as_json, "As JSON");
   command->callback([a, &exit] { exit = show_scene(*a); });
 }

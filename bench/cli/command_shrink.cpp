@@ -84,7 +84,7 @@ core::Exit print_boxes(const ShrunkBoxes& shrunk, const std::filesystem::path& f
   for (const core::Pair p : shrunk.missed) fmt::print("missed: {} and {}\n", p.i, p.j);
   for (const core::Pair p : shrunk.extra) fmt::print("too many: {} and {}\n", p.i, p.j);
   fmt::print("{} runs in {:.1f} s{}\n", shrunk.trials, shrunk.seconds,
-             shrunk.is_out_of_time ? "; time was up, it could perhaps be smaller" : "");
+             shrunk.is_out_of_time ? "; time ran out, so a smaller case may exist" : "");
   return core::Exit::kGood;
 }
 
@@ -130,7 +130,7 @@ core::Exit write_case(const ShrinkArguments& a, const Question& q, const ShrunkS
       "s{}\n",
       shrunk.scene.body_count(), shrunk.scene.frames, triangles, core::outcome_word(shrunk.verdict.outcome),
       shrunk.verdict.explanation, toml, source, shrunk.trials, shrunk.seconds,
-      shrunk.is_out_of_time ? "; time was up, it could perhaps be smaller" : "");
+      shrunk.is_out_of_time ? "; time ran out, so a smaller case may exist" : "");
   return core::Exit::kGood;
 }
 
@@ -181,12 +181,12 @@ void add_shrink(CLI::App& program, core::Exit& exit) {
       ->add_option("--out", a->out,
                    "Writes OUT.toml with its meshes and OUT_test.cpp, or OUT.boxes; into a folder: shrunk.toml ...")
       ->capture_default_str();
-  command->add_option("--time-limit", a->time_limit_s, "Seconds after which the best so far is taken")
+  command->add_option("--time-limit", a->time_limit_s, "Seconds after which the smallest case so far is taken")
       ->check(more_than_zero, "POSITIVE")
       ->capture_default_str();
   command->footer(
       "SCENE may also be a trace (.h5) or boxes (boxes:uniform:N, FILE.boxes). Exit codes: 0 a case was written;\n"
-      "2 bad input, or the verdict is no fault; 3 the engine is not on this machine.");
+      "2 bad input, or the validator does not fail; 3 the engine is not on this machine.");
   command->callback([a, &exit] {
     a->out = beginning_of(a->out);
     exit = shrink(*a);

@@ -114,16 +114,16 @@ void add_time(CLI::App& program, core::Exit& exit) {
   command
       ->add_option(
           "--processes", a->processes,
-          "Processes, each with its own repetitions: what compare needs to tell a change from chance (10 are good)")
+          "Processes, each with its own repetitions; compare needs several to tell a change from chance (10 are good)")
       ->check(more_than_zero, "POSITIVE")
       ->capture_default_str();
   command->add_option("--narrow-every", a->narrow_every,
                       "Narrow-phase engines measure every k-th frame (default: about 30 frames of the run)");
   command->add_option("--out", a->out, "File for the samples; traces and verdicts beside it are the proof")
       ->capture_default_str();
-  command->add_option("--turns", a->turns,
-                      "Take turns with another process, frame by frame: what compare --interleave says to the two that "
-                      "it starts");
+  command->add_option(
+      "--turns", a->turns,
+      "Take turns with another process, frame by frame; compare --interleave passes this to both processes");
   add_limits(*command, a->limits);
   command->add_option("--in-process", a->in_process, "Time one cell here and leave its samples in this folder")
       ->group("");

@@ -82,9 +82,10 @@ void add_view(CLI::App& program, core::Exit& exit) {
       ->check(more_than_zero, "POSITIVE")
       ->capture_default_str();
   command->add_option("--window", a->window, "Take only steps FIRST:LAST, such as 100:200");
-  command->add_option("--out", a->out,
-                      "File for what is drawn (default: beside the trace; all boxes of all frames need none, since the "
-                      "trace holds them). The XDMF text stands beside it");
+  command->add_option(
+      "--out", a->out,
+      "File for the drawn geometry (default: beside the trace; all boxes of all frames need none, since the trace "
+      "holds them). The XDMF file is written beside it");
   command->callback([a, &exit] { exit = view(*a); });
 }
 

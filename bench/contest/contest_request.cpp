@@ -123,7 +123,8 @@ core::Status complete(Entrant& entrant) {
   auto row = find_engine(id);
   if (!row) return row.error();
   if (!offers(*row.value(), "dynamics"))
-    return core::Error{"it offers no dynamics, so a contest has no motion to compare", id, "broadside list engines"};
+    return core::Error{"it offers no dynamics, so a contest has no motion to compare", id,
+                       "see 'broadside list engines'"};
   entrant.absent = why_absent(*row.value());
   if (!entrant.absent.empty()) return core::Done{};
   const auto settings_of_it = row.value()->settings;
@@ -178,7 +179,8 @@ core::Result<std::vector<std::string>> scenes_of(const ContestRequest& request) 
     for (const std::string& name : known)
       if (begins_with_one_of(name, {wanted})) names.push_back(name);
     if (names.size() == before)
-      return core::Error{"no scene with an answer begins with '" + wanted + "'", "--scenes", "broadside list scenes"};
+      return core::Error{"no scene with an answer begins with '" + wanted + "'", "--scenes",
+                         "see 'broadside list scenes'"};
   }
   return names;
 }

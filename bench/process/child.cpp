@@ -358,7 +358,7 @@ core::Result<core::Sample> time_cell_in_child(const CellRequest& request, const 
   auto rows = core::read_rows(folder.path());
   if (ending.is_good && rows.ok() && rows.value().samples.size() == 1) return rows.value().samples[0];
   const std::string why = ending.exit_code > 0 && !ending.last_line.empty() ? ending.last_line : ending.words;
-  const std::string verdict = why.empty() ? "it left no sample" : fmt::format("{}: {}", class_of(ending), why);
+  const std::string verdict = why.empty() ? "it wrote no sample" : fmt::format("{}: {}", class_of(ending), why);
   return core::Error{verdict, std::string(request.row->id), "repeat: " + command_line(args), core::Exit::kMissing};
 }
 

@@ -255,7 +255,7 @@ core::Result<core::Cell> record_as(const CellRequest& request, core::Engine& eng
   if (engine.dynamics && is_asked("dynamics")) return record_dynamics(request, engine);
   if (engine.broad_phase && is_asked("broad")) return record_broad(request, engine);
   if (engine.narrow_phase && is_asked("narrow")) return record_narrow(request, engine);
-  return core::Error{"it does not offer what was asked of it: " + std::string(capability), engine.id,
+  return core::Error{"it does not offer the capability asked for: " + std::string(capability), engine.id,
                      "see 'broadside list engines'"};
 }
 

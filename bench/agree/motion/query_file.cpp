@@ -71,7 +71,8 @@ core::Result<std::vector<FileQuery>> read_query_file(const std::filesystem::path
     FileQuery& query = queries.back();
     query.features.kind = kind;
     const bool touches = cells[6] == "1";
-    if (row > 0 && touches != query.touches) return fault(file, number, "the truth differs within one query");
+    if (row > 0 && touches != query.touches)
+      return fault(file, number, "the eight rows of one query name different truths");
     query.touches = touches;
     for (std::size_t axis = 0; axis < 3; ++axis)
       query.features.points[row][axis] = {std::string(cells[2 * axis]), std::string(cells[2 * axis + 1])};

@@ -175,7 +175,7 @@ TEST(QueryFile, BadFilesAreOneLineWithThePlace) {
                                                {good + "1,4,x,4,1,1,1\n", "line 9", "'x' is no integer"},
                                                {good + "1.5,4,1,4,1,1,1\n", "line 9", "'1.5' is no integer"},
                                                {good + "1,4,1,4,1,1,2\n", "line 9", "not 0 or 1"},
-                                               {row + "1,4,1,4,1,1,0\n", "line 2", "differs within one query"}}) {
+                                               {row + "1,4,1,4,1,1,0\n", "line 2", "name different truths"}}) {
     const auto read = read_back(text);
     ASSERT_FALSE(read.ok()) << text;
     const std::string line = read.error().line();
