@@ -43,11 +43,11 @@ std::string why_unproven(const core::Stamp& stamp, const core::RunRows& rows) {
       if (!verdict.ties_motion_to_forces || text.find(verdict.validator + ": ") != std::string::npos) continue;
       text += (text.empty() ? "" : "; ") + verdict.validator + ": ";
       text += verdict.outcome == core::Outcome::kNotApplicable ? verdict.explanation
-              : verdict.outcome == core::Outcome::kPass        ? "tied no body that moved to forces"
+              : verdict.outcome == core::Outcome::kPass        ? "passed, but on no body that moved"
                                                                : std::string(core::outcome_word(verdict.outcome));
     }
   }
-  return "nothing of its motion was proven (" + (text.empty() ? "no law of motion was asked for" : text) + ")";
+  return "its motion was not proven (" + (text.empty() ? "no law of motion was asked for" : text) + ")";
 }
 
 }  // namespace

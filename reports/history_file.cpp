@@ -154,7 +154,7 @@ core::Result<Appended> append_to_history(const std::filesystem::path& file, cons
   const std::vector<Timing> timings = pool_samples(rows);
   const std::vector<Value> values = values_of(rows, timings);
   if (values.empty())
-    return core::Error{"has nothing to remember: no counter, no verdict, no admitted time", "history",
+    return core::Error{"has nothing to add to the history: no counter, no verdict, no admitted time", "history",
                        "record, check and time a cell first"};
   auto opened = open(file, SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE);
   if (!opened) return opened.error();

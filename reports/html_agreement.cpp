@@ -31,7 +31,7 @@ std::string power_of_ten(int power) {
 Chart chart_of(const std::string& what, const AgreementHistograms& histograms, const SceneView& scene) {
   Chart chart{.title = histograms.title,
               .description = "Of " + scene.name + ": the share of each engine's answered pairs whose " + what +
-                             " is off by less than each power of ten and not less than the one before.",
+                             " error lies between one power of ten and the next.",
               .x = {.name = "share of answered pairs", .unit = "%", .from_zero = true},
               .y = {.name = "off by", .unit = histograms.unit}};
   for (std::size_t k = 0; k < histograms.bins; ++k) {

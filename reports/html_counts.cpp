@@ -60,7 +60,7 @@ std::string counts_section(const SceneView& scene, PageParts& page) {
     table =
         element("table.precision",
                 element("caption",
-                        "Precision of the broad phase: of the pairs that an engine reports, how many boxes really "
+                        "Precision of the broad phase: the share of the pairs an engine reports whose boxes really "
                         "overlap"),
                 table_head({{"engine"}, {"reported", true, "per frame"}, {"overlapping", true}, {"precision", true}}),
                 element("tbody", precision));
@@ -78,7 +78,7 @@ std::string frame_series_section(const SceneView& scene, PageParts& page) {
   for (const std::string& subject : subjects) {
     Chart chart{
         .title = subject + " over the run",
-        .description = "How " + subject + " went along the run of " + scene.name + ", for each recorded engine.",
+        .description = "How " + subject + " changed during the run of " + scene.name + ", for each recorded engine.",
         .x = {.name = "step"},
         .y = {.name = subject},
         .has_zoom = true};

@@ -24,8 +24,8 @@ std::string_view column_of(core::LawKind kind) {
 }
 
 std::string motion_html(const TraceView& trace) {
-  if (!trace.is_simulation) return absent_value("moved nothing itself");
-  return trace.has_proven_motion() ? "proven" : element("strong.reason", "nothing of its motion was proven");
+  if (!trace.is_simulation) return absent_value("moves no bodies");
+  return trace.has_proven_motion() ? "proven" : element("strong.reason", "its motion was not proven");
 }
 
 std::string reasons_html(const TraceView& trace) {
@@ -65,7 +65,9 @@ std::string coverage_section(const SceneView& scene, PageParts&) {
   columns.push_back({"motion"});
   columns.push_back({"did not apply"});
   return element("section", element("h3", "How much was judged"),
-                 element("p.hint", "Laws that met something in the trace, of those that were asked for."),
+                 element("p.hint",
+                         "How many of the laws that were asked for applied, which means that they found "
+                         "something to check in the trace."),
                  element("table.coverage", table_head(columns), element("tbody", rows)));
 }
 

@@ -36,11 +36,10 @@ std::string declared_html(const SceneView& scene) {
   for (const DeclaredColumn& column : table.columns) columns.push_back({labels_of(column)});
   std::string rows;
   for (std::size_t k = 0; k < table.keys.size(); ++k) rows += row_html(table, k);
-  return element("h4", "What engines declare of themselves") +
-         element(
-             "p.hint",
-             "It decides which laws are held against them; what is not declared is taken as a correct engine of the "
-             "plainest kind would have it.") +
+  return element("h4", "What engines declare about themselves") +
+         element("p.hint",
+                 "The declaration decides which laws an engine is checked against. Each key that is not declared has "
+                 "the value of the simplest correct engine.") +
          element("table.cells.declared", table_head(columns), element("tbody", rows));
 }
 

@@ -53,14 +53,15 @@ std::string energy_section(PageParts& page) {
         chart(series, "Energy", "Kinetic and potential energy at the end of each frame.", 0, 2, false));
     out += page.charts.figure(
         chart(series, "Work since the start",
-              "What integration, normal impulses, friction, position correction and the velocity cap added or took.", 2,
-              core::kEnergyColumnCount, true));
+              "Energy that integration, normal impulses, friction, position correction and the velocity cap added "
+              "or removed.",
+              2, core::kEnergyColumnCount, true));
   }
   if (out.empty()) return out;
   return element("section.energy", {{"id", "energy"}}, element("h2", "Where the energy went"), "\n",
                  element("p",
-                         "Every frame's change of energy is the sum of these works, to their rounding: the validator "
-                         "energy judges that."),
+                         "In every frame the energy must change by the sum of these works, within rounding. The "
+                         "validator energy checks this."),
                  "\n", element("div.charts", out)) +
          "\n";
 }

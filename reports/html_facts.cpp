@@ -89,7 +89,7 @@ std::string cells_section(const SceneView& scene, PageParts&) {
   columns.push_back({"trace"});
   return element("section", element("h3", "What ran"),
                  element("table.cells", table_head(columns), element("tbody", rows)),
-                 element("p.hint", "Recording writes every frame to disk; its duration is no benchmark."));
+                 element("p.hint", "Recording writes every frame to disk, so its duration is not a benchmark."));
 }
 
 std::string facts_section(const SceneView& scene, PageParts&) {
@@ -134,15 +134,15 @@ std::string legend_section(PageParts&) {
       fact_entry(outcome_html(Outcome::kInconclusive, true),
                  "inconclusive: the trace can neither prove nor refute it") +
       fact_entry(outcome_html(Outcome::kNotApplicable, true),
-                 "not applicable to this engine or trace; the place says why") +
+                 "not applicable to this engine or trace; the opened cell says why") +
       fact_entry("\u00D72",
-                 "so many verdicts: alone and against baselines; the gravest is shown, the place lists all") +
+                 "number of verdicts, alone and against baselines; the worst is shown, the opened cell lists all") +
       fact_entry("struck out",
-                 "A time counts only when a recording of the same scene, engine, settings, build and machine exists, "
-                 "at least one verdict on it passed and none failed, a law tied a motion of the engine to forces, "
-                 "and the timed run ended in the recorded state, bit by bit.") +
-      fact_entry("spread", "distance of the quartiles over the median, over all timed frames") +
-      fact_entry("FPS", "frames over their total time, per run; mean and standard deviation over runs");
+                 "A time counts only when a recording of the same scene, engine, settings, build and machine "
+                 "exists, at least one verdict on it passed and none failed, a law that proves motion passed on a "
+                 "body that moved, and the timed run ended in the recorded state, bit by bit.") +
+      fact_entry("spread", "interquartile range divided by the median, over all timed frames") +
+      fact_entry("FPS", "frames divided by their total time, per run; mean and standard deviation over runs");
   return element("section.legend", {{"id", "legend"}}, element("h2", "How to read this page"), element("dl", entries));
 }
 

@@ -36,11 +36,11 @@ std::vector<KnownLaw> laws_of(const std::vector<SceneView>& scenes) {
 std::string_view heading_of(core::LawKind kind) {
   switch (kind) {
     case core::LawKind::kMechanics:
-      return "Laws of mechanics, of every engine";
+      return "Laws of mechanics, for every engine";
     case core::LawKind::kMethod:
-      return "Laws of the published method, where a trace declares it";
+      return "Laws of the published method, for traces that declare it";
     case core::LawKind::kTrace:
-      return "Laws of every trace";
+      return "Laws for every trace";
   }
   return "";
 }

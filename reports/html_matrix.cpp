@@ -206,11 +206,12 @@ std::string matrix_section(const SceneView& scene, PageParts& page) {
   for (const Columns& columns : tables)
     all += (tables.size() > 1 ? element("h4", matrix_heading(columns.kind)) : std::string()) +
            matrix_table(scene, columns.validators, shared.empty(), page);
-  return element(
-      "section", element("h3", "Verdicts"),
-      element("p.hint", "Each word opens what was measured, the limit and where it comes from, and the worst place.",
-              shared.empty() ? "" : " All were judged " + html(shared) + "."),
-      all);
+  return element("section", element("h3", "Verdicts"),
+                 element("p.hint",
+                         "Click a word to see what was measured, the limit and where it comes from, and the worst "
+                         "place.",
+                         shared.empty() ? "" : " All were judged " + html(shared) + "."),
+                 all);
 }
 
 std::string findings_section(PageParts& page) {

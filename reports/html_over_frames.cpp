@@ -116,8 +116,8 @@ std::string side_by_side_section(const SceneView& scene, PageParts& page) {
   if (figures.empty()) return "";
   return element("section", element("h3", "Engines side by side"),
                  element("p.hint",
-                         "Ratio of median frames; whiskers are 95 % of resampled processes and runs. Runs of one "
-                         "process understate how much the next process would differ. Left of 1 is faster."),
+                         "Ratio of median frame times; whiskers span 95 % of resampled processes and runs. Runs of "
+                         "one process differ less than runs of different processes would. Left of 1 is faster."),
                  element("div.charts", figures));
 }
 

@@ -16,7 +16,7 @@ constexpr std::size_t kMostHistories = 24;
 
 std::string exponent_row(const ScalingSeries& s) {
   std::string interval =
-      std::isfinite(s.law.low) ? figure(s.law.low) + " to " + figure(s.law.high) : "none: two counts only";
+      std::isfinite(s.law.low) ? figure(s.law.low) + " to " + figure(s.law.high) : "none: only two body counts";
   return element("tr", row_head(html(s.family)), text_cell("engine", html(s.label)),
                  figure_cell("exponent", html(figure(s.law.exponent))), figure_cell("95 % interval", html(interval)),
                  figure_cell("counts", counted(s.n.size())));

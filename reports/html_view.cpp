@@ -20,10 +20,9 @@ std::string view_section(PageParts& page) {
       "section", {{"id", "view-section"}}, element("h2", "The scene, frame by frame"),
       element("p.hint",
               "Boxes of the octree levels in red, turned with their body; candidate pairs; contacts with their "
-              "normals from B to A. "
-              "Drag turns, the wheel zooms; with the picture in focus, space plays and the arrow keys step. "
-              "Of a long run, frames around each place that a verdict names are all here, the others spread "
-              "evenly."),
+              "normals from B to A. Drag turns, the wheel zooms; with the picture in focus, space plays and the "
+              "arrow keys step. Of a long run, the page has all frames around each place that a verdict names, and "
+              "others at even intervals."),
       element("div", {{"id", "view"}}, element("div", {{"id", "view-picture"}}, picture)),
       marks.empty()
           ? ""

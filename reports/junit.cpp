@@ -84,7 +84,7 @@ std::string properties(const TraceView& trace) {
   if (!trace.is_judged()) return "";
   std::string out = property("coverage", core::coverage_text(trace.coverage()));
   if (trace.is_simulation)
-    out += property("motion", trace.has_proven_motion() ? "proven" : "nothing of its motion was proven");
+    out += property("motion", trace.has_proven_motion() ? "proven" : "its motion was not proven");
   for (const auto& [key, text] : trace.declaration) out += property("declaration." + key, text);
   return "    <properties>\n" + out + "    </properties>\n";
 }

@@ -141,9 +141,9 @@ void add_coverage(Comment& comment, const SceneView& scene) {
       for (const std::string& law : laws) names += (names.empty() ? "" : ", ") + law;
       others += (others.empty() ? "" : "; ") + names + ": " + why;
     }
-    const std::string motion = !trace.is_simulation        ? "it moved nothing itself"
+    const std::string motion = !trace.is_simulation        ? "it moves no bodies"
                                : trace.has_proven_motion() ? "proven"
-                                                           : "**nothing of its motion was proven**";
+                                                           : "**its motion was not proven**";
     rows.push_back(row_of({name(trace.label), core::coverage_text(trace.coverage()), motion,
                            others.empty() ? "none" : markdown(clipped(printable(others), 2000))}));
   }

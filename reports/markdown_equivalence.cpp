@@ -16,7 +16,7 @@ std::string text(std::string_view raw) {
 std::string declared_block(const SceneView& scene) {
   const DeclaredTable table = declared_table(scene);
   if (table.columns.empty()) return "";
-  std::string out = "\n#### What engines declare of themselves\n\n| declared |";
+  std::string out = "\n#### What engines declare about themselves\n\n| declared |";
   std::string rule = "\n| --- |";
   for (const DeclaredColumn& column : table.columns) {
     std::string labels;

@@ -66,7 +66,7 @@ std::string name_of(const TraceView& trace) {
 std::string coverage_lines(const TraceView& trace, const std::string& before) {
   if (!trace.is_judged()) return "";
   const std::string text = before + core::coverage_text(trace.coverage());
-  return trace.is_simulation && !trace.has_proven_motion() ? text + "\n" + before + "nothing of its motion was proven\n"
+  return trace.is_simulation && !trace.has_proven_motion() ? text + "\n" + before + "its motion was not proven\n"
                                                            : text + "\n";
 }
 

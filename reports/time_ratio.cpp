@@ -62,8 +62,8 @@ std::string why_not(const Runs* base, const Runs* head) {
   if (head == nullptr) return "the head has no time";
   if (!base->refusal.empty()) return "the base's time is struck out: " + base->refusal;
   if (!head->refusal.empty()) return "the head's time is struck out: " + head->refusal;
-  if (base->stamp.scene_digest != head->stamp.scene_digest) return "the scene is another one";
-  if (base->stamp.machine != head->stamp.machine) return "the machine is another one";
+  if (base->stamp.scene_digest != head->stamp.scene_digest) return "the scenes differ";
+  if (base->stamp.machine != head->stamp.machine) return "the machines differ";
   if (base->frames != head->frames)
     return "the runs have " + counted(base->frames) + " frames in the base and " + counted(head->frames) +
            " in the head";
@@ -119,8 +119,8 @@ void decide(TimeRatio& r, bool is_slower_believed, bool is_faster_believed, doub
   else if (r.low >= 1.0 / (1.0 + delta) && r.high <= 1.0 + delta)
     r.speed = Speed::kSame;
   else
-    r.reason = is_above || is_below ? "of so many cells one may look so by chance"
-                                    : "the interval reaches across the limit of " + percent(delta);
+    r.reason = is_above || is_below ? "among so many cells, one may differ this much by chance"
+                                    : "the interval contains the limit of " + percent(delta);
 }
 
 }  // namespace

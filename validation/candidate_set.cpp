@@ -10,7 +10,7 @@
 namespace broadside::validation {
 namespace {
 
-constexpr std::string_view kExactOrigin = "P(6) on the recorded boxes, float comparison: nothing rounds";
+constexpr std::string_view kExactOrigin = "P(6) on the recorded boxes: comparing floats does not round";
 
 class CandidateSet final : public Validator {
  public:

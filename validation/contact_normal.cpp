@@ -107,11 +107,13 @@ class ContactNormal final : public Validator {
                          rounding(1) * epsilon_m_ + std::sqrt(4.0 * kSubnormal);
     const bool may_coincide = apart < epsilon_m_ + error;
     if (may_coincide && axis == 0 && sign > 0.0) {
-      tally_.require(true, "METHOD 4: centers nearer than epsilon take +x", at(c, "contact.normal"));
+      tally_.require(true, "METHOD 4: where centers are nearer than epsilon, the normal is +x",
+                     at(c, "contact.normal"));
       return;
     }
     if (apart < epsilon_m_ - error) {
-      tally_.require(false, "METHOD 4: centers nearer than epsilon take +x", at(c, "contact.normal"));
+      tally_.require(false, "METHOD 4: where centers are nearer than epsilon, the normal is +x",
+                     at(c, "contact.normal"));
       return;
     }
     judge_axis(c, o, axis, least);
@@ -130,7 +132,8 @@ class ContactNormal final : public Validator {
     // The tie rule, on the depths as floats.
     for (int k = 0; k < axis; ++k)
       tally_.require(static_cast<float>(o.depth[k]) != static_cast<float>(o.depth[axis]),
-                     "METHOD 4: equal overlaps take the lowest axis", at(c, "contact.normal"));
+                     "METHOD 4: where overlaps are equal, the normal is along the lowest axis",
+                     at(c, "contact.normal"));
   }
 
   void judge_face(const core::Contact& c, int axis) {

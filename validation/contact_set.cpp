@@ -55,8 +55,9 @@ class ContactSet final : public Validator {
 
   core::Verdict conclude() override {
     std::string notes = std::to_string(pairs_) + " contacts of two bodies, " + std::to_string(faces_) + " with faces";
-    if (parted_ > 0) notes += ", " + std::to_string(parted_) + " touching pairs had parted before their turn";
-    return tally_.conclude("no contacts and nothing that touches", notes);
+    if (parted_ > 0)
+      notes += ", " + std::to_string(parted_) + " touching pairs had separated before their contact was applied";
+    return tally_.conclude("no contacts, and no body touches anything", notes);
   }
 
  private:
@@ -224,7 +225,7 @@ std::string why_not_contact_set(const Subject& subject) {
 
 ValidatorRow contact_set_row() {
   return {"contact-set",
-          "each pair that touches and each body beyond a face has one contact, and nothing else has",
+          "each pair that touches and each body beyond a face has exactly one contact, and there are no others",
           "a lost contact; a contact of bodies that do not touch",
           core::bit(core::Group::kContacts) | kPairGroups | core::bit(core::Group::kBodies),
           0,

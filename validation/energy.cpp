@@ -28,7 +28,7 @@ class Energy final : public Validator {
   }
 
   core::Verdict conclude() override {
-    return tally_.conclude("no two frames that follow each other",
+    return tally_.conclude("no two consecutive frames",
                            "in all " + number_text(total_.change) + " J: integration " +
                                number_text(total_.integration) + ", normal impulses " + number_text(total_.normal) +
                                ", friction " + number_text(total_.friction) + ", position correction " +
@@ -38,7 +38,7 @@ class Energy final : public Validator {
  private:
   EnergyLedger ledger_;
   EnergyRow total_;
-  Tally tally_{"energy", "frames", "a frame's change of energy is the work of its stages, to their rounding"};
+  Tally tally_{"energy", "frames", "a frame's change of energy equals the work of its stages, within their rounding"};
 };
 
 std::string why_not_energy(const Subject& subject) {
@@ -46,7 +46,7 @@ std::string why_not_energy(const Subject& subject) {
       core::bit(core::Group::kBodies) | core::bit(core::Group::kDetection) | core::bit(core::Group::kContacts);
   if (std::string text = lacking(subject.header, kRead); !text.empty()) return text;
   if (std::string text = why_not_method(subject.header); !text.empty()) return text;
-  if (!subject.header.driver.empty()) return "the states are those of another engine";
+  if (!subject.header.driver.empty()) return "the states come from another engine";
   if (setting(subject.header.stamp, "solver") != "colored" || setting(subject.header.stamp, "variant") == "printed-E8")
     return "contacts are not applied one after another, so their works do not add up";
   return {};
@@ -56,8 +56,8 @@ std::string why_not_energy(const Subject& subject) {
 
 ValidatorRow energy_row() {
   return {"energy",
-          "every frame's change of energy is the work of integration, impulses, friction, correction and cap",
-          "a stage whose work is not in the books",
+          "in every frame, the change of energy equals the work of integration, impulses, friction, correction and cap",
+          "a stage whose work is not counted",
           core::bit(core::Group::kBodies) | core::bit(core::Group::kDetection) | core::bit(core::Group::kContacts),
           0,
           why_not_energy,

@@ -164,7 +164,7 @@ std::string why_not_frame_digest(const Subject& subject) {
   const std::string kind = told_kind(subject.header);
   if (kind == "none") return {};
   if (!kind.empty() && kind != kWithPoints) return "the engine has a digest of its own (" + kind + ")";
-  if (digest_of(subject.header) == nullptr) return "the trace records nothing that the digests are of";
+  if (digest_of(subject.header) == nullptr) return "the trace records none of the data that digests cover";
   return {};
 }
 

@@ -32,7 +32,8 @@ class FrictionEnergy final : public Validator {
   core::Verdict conclude() override {
     std::string notes = "friction did " + number_text(work_j_) + " J of work in all";
     if (hardest_frame_j_ < 0.0)
-      notes += ", at most in step " + std::to_string(hardest_step_) + " with " + number_text(hardest_frame_j_) + " J";
+      notes +=
+          ", most of it in step " + std::to_string(hardest_step_) + " with " + number_text(hardest_frame_j_) + " J";
     notes += "; " + std::to_string(sticking_) + " stuck, " + std::to_string(sliding_) + " slid";
     return tally_.conclude("no contacts", notes);
   }
@@ -65,10 +66,11 @@ class FrictionEnergy final : public Validator {
     const double recorded = c.tangent_impulse_n_s;
     const Vec3d tangent(c.tangent);
     const Vec3d unexplained = (app.sliding_after - app.sliding_before) - (app.w_sum * recorded) * tangent;
-    tally_.check(
-        length(unexplained),
-        {after_error, "m/s", "the recorded impulse made the change of v_t, to the additions to both velocities"},
-        at("contact.tangent_impulse"));
+    tally_.check(length(unexplained),
+                 {after_error, "m/s",
+                  "the recorded impulse accounts for the change of v_t, within the rounding of the "
+                  "additions to both velocities"},
+                 at("contact.tangent_impulse"));
     // Along an axis neither the normal's products nor the difference of equal components round: zero is exact.
     if (is_axis(app.normal) && speed == 0.0) {
       tally_.check(std::abs(recorded), {0.0, "N s", kNoTangent}, at("contact.tangent_impulse"));

@@ -7,9 +7,10 @@
 namespace broadside::validation {
 namespace {
 
-constexpr std::string_view kChain = "states are handed on from contact to contact unchanged";
+constexpr std::string_view kChain = "each contact starts from exactly the state that the body's previous contact left";
 constexpr std::string_view kSums =
-    "jacobi: contacts of two bodies start from what was seen; their n changes are added, n + 2 operations (float32)";
+    "jacobi: contacts of two bodies start from the states at detection; their n changes are added, n + 2 "
+    "operations (float32)";
 constexpr std::string_view kOutside = "outside a face without a contact with it: u |bound| (METHOD 4, float32)";
 
 }  // namespace

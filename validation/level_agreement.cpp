@@ -160,7 +160,8 @@ ValidatorRow level_agreement_row() {
   constexpr std::uint32_t kRead = core::bit(core::Group::kConfirmed) | core::bit(core::Group::kDetection);
   return {
       "level-agreement",
-      "A, B and C confirm the same pairs, level1 and flat contain them: those whose last-level boxes overlap",
+      "levels A, B and C confirm the same pairs, those whose last-level boxes overlap; level1 and flat confirm at "
+      "least these",
       "a wrongly skipped child",
       kRead | core::bit(core::Group::kPairs),
       kRead,

@@ -52,7 +52,7 @@ class Metamorphic final : public Validator {
 
   core::Verdict conclude() override {
     std::string notes = std::to_string(compared_) + " frames compared with the scene " + relation_.text();
-    if (has_parted_) notes += ", parted in step " + std::to_string(parted_at_) + ": " + why_parted_;
+    if (has_parted_) notes += ", diverged in step " + std::to_string(parted_at_) + ": " + why_parted_;
     core::Verdict verdict = tally_.conclude("the two traces share no step", notes);
     verdict.baseline = baseline_;
     return verdict;
@@ -277,7 +277,8 @@ ValidatorRow metamorphic_row() {
   constexpr std::uint32_t kRead = core::bit(Group::kDetection) | core::bit(Group::kPairs) |
                                   core::bit(Group::kConfirmed) | core::bit(Group::kContacts);
   return {"metamorphic",
-          "a renumbered, mirrored, scaled or grown scene has the renumbered, mirrored, scaled or a larger outcome",
+          "a renumbered, mirrored or scaled scene has the renumbered, mirrored or scaled outcome; a grown one "
+          "loses no pairs",
           "a result that depends on the order of ids, on a direction of space, or on the unit of length",
           kRead,
           kRead,

@@ -43,7 +43,9 @@ class NormalEnergy final : public Validator {
     const double impulse = (after - before) / app.w_sum;
     const double impulse_limit = after_error / app.w_sum + rounding(4) * std::abs(impulse);
     tally_.check(std::abs(c.normal_impulse_n_s - impulse),
-                 {impulse_limit, "N s", "the recorded impulse made the change of v_n, to its additions (float32)"},
+                 {impulse_limit, "N s",
+                  "the recorded impulse accounts for the change of v_n, within the rounding "
+                  "of its additions (float32)"},
                  Where::pair(step, c.a, c.b, "contact.normal_impulse"));
     tally_.check(-static_cast<double>(c.normal_impulse_n_s), {0.0, "N s", "a contact only pushes: J_n >= 0 (METHOD 6)"},
                  Where::pair(step, c.a, c.b, "contact.normal_impulse"));
@@ -63,7 +65,7 @@ std::string why_not_normal_energy(const Subject& subject) {
 
 ValidatorRow normal_energy_row() {
   return {"normal-energy",
-          "the normal impulse never adds kinetic energy and is the one recorded",
+          "the normal impulse never adds kinetic energy, and the recorded impulse accounts for the change of velocity",
           "printed-E5",
           core::bit(core::Group::kContacts),
           0,

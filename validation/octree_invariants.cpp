@@ -38,7 +38,7 @@ class OctreeInvariants final : public Validator {
 
   core::Verdict conclude() override {
     if (has(header_, core::Group::kBodyOctree) && seen_ && told_ == 0 && !scene_.bodies.empty())
-      tally_.require(false, "the body octrees are told once, with the first frame", Where::frame(step_, "body_octree"));
+      tally_.require(false, "body octrees are recorded once, with the first frame", Where::frame(step_, "body_octree"));
     return tally_.conclude("no frames", std::to_string(scene_octrees_) + " scene octrees, " + std::to_string(shapes_) +
                                             " body octrees over " + std::to_string(vertices_) + " vertices");
   }
@@ -118,7 +118,7 @@ class OctreeInvariants final : public Validator {
     for (int axis = 0; axis < 3; ++axis)
       is_inside &= box.min[axis] >= scene_.domain.min[axis] && box.max[axis] <= scene_.domain.max[axis];
     if (!is_inside) {
-      tally_.require(k == 0, "METHOD 2: what is outside the domain is in the root", where);
+      tally_.require(k == 0, "METHOD 2: a body outside the domain is in the root", where);
       return;
     }
     const OctreeNode& node = nodes[k];
@@ -238,7 +238,8 @@ class OctreeInvariants final : public Validator {
   std::uint64_t scene_octrees_ = 0;
   std::uint64_t shapes_ = 0;
   std::uint64_t vertices_ = 0;
-  Tally tally_{"octree-invariants", "properties of octrees", "METHOD 2: children tile, everything in its lowest cell"};
+  Tally tally_{"octree-invariants", "properties of octrees",
+               "METHOD 2: children tile their parent, and each body and vertex is in its lowest cell"};
 };
 
 std::string why_not_octree_invariants(const Subject& subject) {
@@ -252,7 +253,7 @@ ValidatorRow octree_invariants_row() {
   return {
       "octree-invariants",
       "children tile their parent, every body is in the lowest node that contains it, every vertex in exactly one leaf",
-      "printed-E7; a body one level too high; a vertex in no leaf or another's",
+      "printed-E7; a body one level too high; a vertex in no leaf or in a wrong one",
       core::bit(core::Group::kOctree) | core::bit(core::Group::kBodyOctree) | core::bit(core::Group::kDetection),
       0,
       why_not_octree_invariants,

@@ -83,16 +83,17 @@ class ProximityBound final : public Validator {
 
   core::Verdict conclude() override {
     std::string notes =
-        std::to_string(searched_) + " of " + std::to_string(confirmed_) + " confirmed pairs searched anew";
+        std::to_string(searched_) + " of " + std::to_string(confirmed_) + " confirmed pairs searched again";
     if (measured_ > 0) {
       notes += ", " + std::to_string(measured_) + " measured by the baseline in " + std::to_string(frames_measured_) +
                " frames";
       if (meeting_ > 0)
-        notes += ", of " + std::to_string(meeting_) + " whose surfaces meet vertices missed " +
+        notes += ", of " + std::to_string(meeting_) + " pairs whose surfaces intersect, vertex proximity missed " +
                  std::to_string(missed_) + " (" +
                  number_text(100.0 * static_cast<double>(missed_) / static_cast<double>(meeting_)) + " %, E13)";
     }
-    if (elsewhere_ > 0) notes += ", " + std::to_string(elsewhere_) + " measured frames not used: other positions";
+    if (elsewhere_ > 0)
+      notes += ", " + std::to_string(elsewhere_) + " measured frames not used, because their positions differ";
     core::Verdict verdict =
         tally_.conclude(is_off_ ? "the vertex stage was off" : "no confirmed pair with vertex proximity", notes);
     if (measured_ > 0) verdict.baseline = baseline_;
@@ -127,8 +128,8 @@ class ProximityBound final : public Validator {
   void judge_record(core::Pair p, const core::Proximity& proximity) {
     if (!is_known(p)) return;
     if (!proximity.is_touching()) {
-      tally_.require(proximity == core::Proximity{}, "SCHEMA.md: what does not touch has no vertices and no distance",
-                     at(p, "proximity"));
+      tally_.require(proximity == core::Proximity{},
+                     "SCHEMA.md: a pair that does not touch has no vertices and no distance", at(p, "proximity"));
       return;
     }
     const auto& a = surface(p.i).vertices;
@@ -257,7 +258,9 @@ class ProximityBound final : public Validator {
 std::string why_not_proximity_bound(const Subject& subject) {
   constexpr std::uint32_t kBoth = core::bit(core::Group::kConfirmed) | core::bit(core::Group::kDetection);
   if (std::string text = lacking(subject.header, kBoth); !text.empty()) return text;
-  return has(subject.header, core::Group::kDetectedOrientation) ? "its bodies turn, and touch by their surfaces" : "";
+  return has(subject.header, core::Group::kDetectedOrientation)
+             ? "the scene's bodies turn, and their contacts are between surfaces, not vertices"
+             : "";
 }
 
 }  // namespace

@@ -182,7 +182,7 @@ class Recording final : public Validator {
     if (w.on_bodies == 0) {
       tally_.require(
           std::isnan(row.mean_depth_m) && std::isnan(row.largest_depth_m) && std::isnan(row.share_above_slop),
-          "METHOD 9: without contacts the depths are no numbers", at("statistics.mean_depth"));
+          "METHOD 9: without contacts the depths are NaN", at("statistics.mean_depth"));
       return;
     }
     const auto count = static_cast<double>(w.on_bodies);

@@ -117,8 +117,8 @@ std::string why_not_restitution(const Subject& subject) {
 
 ValidatorRow restitution_row() {
   return {"restitution",
-          "contacts leave with -e_eff times the normal speed they came with, or with the floor's; separating ones "
-          "untouched",
+          "contacts separate at -e_eff times their approach speed, or at the speed that the impulse floor gives; "
+          "separating contacts stay unchanged",
           "restitution applied below the threshold speed; an impulse below the floor",
           core::bit(core::Group::kContacts),
           0,

@@ -111,20 +111,20 @@ class Stability final : public Validator {
 std::string why_not_stability(const Subject& subject) {
   if (oscillators(subject.header.scene).empty()) return "the scene has no springs";
   if (std::string text = lacking(subject.header, core::bit(core::Group::kDetection)); !text.empty()) return text;
-  return subject.header.driver.empty() ? "" : "the states are those of another engine";
+  return subject.header.driver.empty() ? "" : "the states come from another engine";
 }
 
 }  // namespace
 
 ValidatorRow stability_row() {
-  return {
-      "stability",
-      "the time step is below the limit of every spring, and what hangs on them moves by the method and stays bounded",
-      "printed-E1; a step above the sound limit",
-      core::bit(core::Group::kBodies) | core::bit(core::Group::kDetection),
-      0,
-      why_not_stability,
-      [](const Subject& subject) -> std::unique_ptr<Validator> { return std::make_unique<Stability>(subject); }};
+  return {"stability",
+          "the time step is below the limit of every spring, and bodies on springs move as the method says and stay "
+          "bounded",
+          "printed-E1; a step above the sound limit",
+          core::bit(core::Group::kBodies) | core::bit(core::Group::kDetection),
+          0,
+          why_not_stability,
+          [](const Subject& subject) -> std::unique_ptr<Validator> { return std::make_unique<Stability>(subject); }};
 }
 
 }  // namespace broadside::validation

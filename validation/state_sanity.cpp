@@ -58,23 +58,24 @@ class StateSanity final : public Validator {
 
   core::Verdict conclude() override {
     const PartLaw laws[] = {
-        {record_, "time is step times dt, every body has its entry, and contacts name bodies that there are",
-         "no frames"},
+        {record_, "time is step times dt, every body has its entry, and contacts name bodies that exist", "no frames"},
         {finite_, "every number of a state is finite, and boxes have min <= max", "no frames"},
         {unit_, "orientations are unit quaternions", "the trace records no end-of-frame states"},
-        {translation_, "bodies of the method only translate", "no body of the method that does not turn at the start"},
+        {translation_, "bodies of the method only translate", "no body of the method starts without turning"},
         {static_, "a body that cannot move stays where the scene put it",
          "no static body of an engine of another method"},
         {boxes_, "a body's box is its shape's box, moved to its position", "no boxes of the method"},
         {integration_, "each frame starts from the one before, moved by P(1) to P(3)",
          "no two steps of the method in a row, with states at detection"},
-        {hand_over_.hand_over(), "a contact goes on from the state that the body's last one left",
+        {hand_over_.hand_over(), "a contact starts from the state that the body's previous contact left",
          "no contacts of the solvers colored and jacobi"},
         {hand_over_.domain(), "a body that ends outside a face has a contact with it",
          "no contacts of the solvers colored and jacobi"},
     };
-    return sum_up(laws, {"state-sanity", "properties of states", "finite, unit, and one step after the frame before"},
-                  "no frames", hand_over_.notes());
+    return sum_up(
+        laws,
+        {"state-sanity", "properties of states", "finite, unit quaternions, and one step after the previous frame"},
+        "no frames", hand_over_.notes());
   }
 
  private:
@@ -237,8 +238,8 @@ std::string why_not_state_sanity(const Subject& subject) {
 
 ValidatorRow state_sanity_row() {
   return {"state-sanity",
-          "states are finite, orientations unit, bodies inside the domain or reported, and each frame follows from the "
-          "last",
+          "states are finite, orientations are unit quaternions, bodies are inside the domain or in contact with "
+          "its faces, and each frame follows from the previous one",
           "NaN; drift; a stale state",
           core::bit(core::Group::kBodies) | core::bit(core::Group::kDetection) | core::bit(core::Group::kContacts),
           0,

@@ -16,7 +16,7 @@ class VelocityCap final : public Validator {
     for (std::uint32_t i = 0; i < velocity.size() && i < scene_.body_count(); ++i) {
       if (!(scene_.bodies[i].inverse_mass > 0.0F)) continue;
       tally_.check(largest_component(Vec3d(velocity[i])),
-                   {scene_.parameters.v_max_m_s, "m/s", "P(23): v_max, a comparison that rounds nothing"},
+                   {scene_.parameters.v_max_m_s, "m/s", "P(23): v_max, a comparison, which does not round"},
                    Where::body(evidence.frame.step, i, "bodies.velocity"));
     }
   }
@@ -25,7 +25,7 @@ class VelocityCap final : public Validator {
 
  private:
   const core::Scene& scene_;
-  Tally tally_{"velocity-cap", "velocities", "P(23): v_max, a comparison that rounds nothing"};
+  Tally tally_{"velocity-cap", "velocities", "P(23): v_max, a comparison, which does not round"};
 };
 
 std::string why_not_velocity_cap(const Subject& subject) {

@@ -106,14 +106,15 @@ TEST(Admission, NothingButNotApplicableProvesNothing) {
 TEST(Admission, AnEngineThatMovesBodiesHasToProveAMotion) {
   core::RunRows rows = proven();
   rows.verdicts[0].is_simulation = true;
-  expect_refused(rows, "nothing of its motion was proven (no law of motion was asked for)");
-  core::Verdict ballistic{.validator = "ballistic", .explanation = "no moving body touched nothing for a whole step"};
+  expect_refused(rows, "its motion was not proven (no law of motion was asked for)");
+  core::Verdict ballistic{.validator = "ballistic",
+                          .explanation = "no moving body was free of contact for a whole step"};
   ballistic.ties_motion_to_forces = true;
   rows.verdicts[0].verdicts.push_back(ballistic);
-  expect_refused(rows, "proven (ballistic: no moving body touched nothing for a whole step)");
+  expect_refused(rows, "proven (ballistic: no moving body was free of contact for a whole step)");
   core::Verdict& verdict = rows.verdicts[0].verdicts[1];
   verdict.outcome = core::Outcome::kPass;
-  expect_refused(rows, "proven (ballistic: tied no body that moved to forces)");
+  expect_refused(rows, "proven (ballistic: passed, but on no body that moved)");
   verdict.moved = 1;
   EXPECT_TRUE(admit(rows.samples[0], rows).is_admitted);
   // A law that does not tie motion to forces proves no motion, however often it was applied.

@@ -176,7 +176,7 @@ TEST(TimeRatio, OtherMachinesOrFramesAreNotCompared) {
   core::RunRows machine = one_cell();
   machine.cells[0].stamp.machine = machine.verdicts[0].stamp.machine = "n";
   for (core::Sample& sample : machine.samples) sample.stamp.machine = "n";
-  EXPECT_EQ(reason(machine), "the machine is another one");
+  EXPECT_EQ(reason(machine), "the machines differ");
   const Comparison c = compare(one_cell(), machine);
   ASSERT_EQ(c.remarks.size(), 1U);
   EXPECT_NE(comparison_text(c).find("NOTE    different machines: the base ran on m, the head on n"), std::string::npos);

@@ -42,7 +42,7 @@ bool page_has(const std::string& text, const std::string& part) {
 }
 
 constexpr const char* kCoverage = "1 of 2 laws of mechanics applied, 1 of 1 of the trace";
-constexpr const char* kUnproven = "nothing of its motion was proven";
+constexpr const char* kUnproven = "its motion was not proven";
 
 TEST(CoverageReport, TheTerminalSaysHowManyLawsAppliedAndWhetherAMotionWasProven) {
   const std::string still = verdict_table(moving_rows(0).verdicts);

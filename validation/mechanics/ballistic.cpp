@@ -30,7 +30,7 @@ class Ballistic final : public Validator {
     }
   }
 
-  core::Verdict conclude() override { return tally_.conclude("no moving body touched nothing for a whole step"); }
+  core::Verdict conclude() override { return tally_.conclude("no moving body was free of contact for a whole step"); }
 
  private:
   // v1 - v0 = g h + F h / m, and x1 - x0 within h times the velocities that the step had: RIGID 5.

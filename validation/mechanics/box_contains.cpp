@@ -112,7 +112,7 @@ ValidatorRow box_contains_row() {
           kNeeded | core::bit(core::Group::kDetectedOrientation),
           0,
           [](const Subject& subject) -> std::string {
-            if (!subject.header.driver.empty()) return "the states are those of another engine";
+            if (!subject.header.driver.empty()) return "the states come from another engine";
             return lacking(subject.header, core::bit(core::Group::kBodies) | core::bit(core::Group::kDetection));
           },
           [](const Subject& subject) -> std::unique_ptr<Validator> { return std::make_unique<BoxContains>(subject); },

@@ -54,8 +54,8 @@ std::string why_not_closed_form(const Subject& subject) {
   if (std::string text = lacking(subject.header, core::bit(core::Group::kBodies)); !text.empty()) return text;
   const std::string& name = subject.header.scene.answer;
   if (name.empty()) return "the scene has no exact answer";
-  if (name == kStands) return "rest judges what stands";
-  if (name == kReported) return "the scene has no agreed answer: what engines do is reported";
+  if (name == kStands) return "the validator rest judges scenes that must stand";
+  if (name == kReported) return "the scene has no agreed answer; what engines do is only reported";
   return find_answer(name) != nullptr ? "" : "the scene's answer '" + name + "' is not one that is known here";
 }
 
@@ -63,8 +63,8 @@ std::string why_not_closed_form(const Subject& subject) {
 
 ValidatorRow closed_form_row() {
   return {"closed-form",
-          "a scene with an exact answer ends where the answer says, within C h^p of the declared order",
-          "whatever is wrong and consistent",
+          "a scene with an exact answer ends where the answer says, within C h^p, where p is the declared order",
+          "consistent errors, which no other law finds",
           core::bit(core::Group::kBodies),
           0,
           why_not_closed_form,

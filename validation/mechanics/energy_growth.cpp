@@ -131,7 +131,7 @@ class EnergyGrowth final : public Validator {
     has_most_ = true;
     slack_ += allowed;
     tally_.check(after - most_, {slack_, "J", kStored}, Where::frame(m.step, "energy"),
-                 [&] { return "E = " + number_text(after) + " J where there were " + number_text(most_) + " J"; });
+                 [&] { return "E = " + number_text(after) + " J, the most before was " + number_text(most_) + " J"; });
     most_ = std::max(most_, before);
   }
 
@@ -160,7 +160,8 @@ class EnergyGrowth final : public Validator {
 
 std::string why_not_energy_growth(const Subject& subject) {
   if (std::string text = lacking(subject.header, core::bit(core::Group::kBodies)); !text.empty()) return text;
-  if (subject.header.declaration.follows_method()) return "energy judges the work of each stage of the method";
+  if (subject.header.declaration.follows_method())
+    return "the validator energy judges the work of each stage of the method";
   return {};
 }
 
@@ -168,7 +169,7 @@ std::string why_not_energy_growth(const Subject& subject) {
 
 ValidatorRow energy_growth_row() {
   return {"energy-growth",
-          "the kinetic energy and the energy of gravity of bodies that may touch do not grow in a step",
+          "the sum of kinetic and potential energy of bodies that may touch does not grow in a step",
           "restitution above 1; energy + 0.1 % a frame; exploding stacks",
           core::bit(core::Group::kBodies) | core::bit(core::Group::kPoints) | core::bit(core::Group::kContacts),
           0,

@@ -179,7 +179,7 @@ class FrictionCone final : public Validator {
 ValidatorRow friction_cone_row() {
   constexpr std::uint32_t kRead = core::bit(core::Group::kBodies) | core::bit(core::Group::kPoints);
   return {"friction-cone",
-          "contacts push; friction stays within mu J n, opposes what slides, and does not fall short of it",
+          "contacts only push; friction is at most mu J n, and where bodies slide it opposes them with all of that",
           "friction reversed; mu halved; contacts that pull",
           kRead,
           0,

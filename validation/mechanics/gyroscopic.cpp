@@ -46,7 +46,7 @@ class Gyroscopic final : public Validator {
   }
 
   core::Verdict conclude() override {
-    return tally_.conclude("no moving body touched nothing for a whole step",
+    return tally_.conclude("no moving body was free of contact for a whole step",
                            too_fast_ > 0 ? std::to_string(too_fast_) + " turned more than 0.1 rad in a step" : "");
   }
 

@@ -39,7 +39,7 @@ class Momentum final : public Validator {
   }
 
   core::Verdict conclude() override {
-    return tally_.conclude("no step of a body, or of bodies that touch each other alone, could be judged");
+    return tally_.conclude("no step could be judged, neither of one body nor of a group of touching bodies");
   }
 
  private:
@@ -132,7 +132,8 @@ class Momentum final : public Validator {
 std::string why_not_momentum(const Subject& subject) {
   if (std::string text = lacking(subject.header, core::bit(core::Group::kBodies)); !text.empty()) return text;
   // METHOD clips velocities, and center-of-mass judges each of its applications.
-  if (subject.header.declaration.follows_method()) return "center-of-mass judges each application of the method";
+  if (subject.header.declaration.follows_method())
+    return "the validator center-of-mass judges each application of the method";
   return {};
 }
 
@@ -140,7 +141,8 @@ std::string why_not_momentum(const Subject& subject) {
 
 ValidatorRow momentum_row() {
   return {"momentum",
-          "m dv = m g h + the impulses reported for the body; without a report, over each set of bodies that touch",
+          "m dv = m g h + the impulses reported for the body; where none are reported, summed over each set of "
+          "bodies that touch",
           "an impulse on one side only; invented or lost momentum",
           core::bit(core::Group::kBodies) | core::bit(core::Group::kPoints),
           0,

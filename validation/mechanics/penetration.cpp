@@ -36,7 +36,7 @@ class Penetration final : public Validator {
   core::Verdict conclude() override {
     const char* name =
         worst_share_ > kClassCShare ? "below C" : (worst_share_ > kClassBShare ? "C" : (is_beyond_a_ ? "B" : "A"));
-    return tally_.conclude("no two bodies with convex shapes came near each other, and none the ground",
+    return tally_.conclude("no body with a convex shape came near another one or the ground",
                            std::string("class ") + name);
   }
 
@@ -144,7 +144,8 @@ class Penetration final : public Validator {
 std::string why_not_penetration(const Subject& subject) {
   if (std::string text = lacking(subject.header, core::bit(core::Group::kBodies)); !text.empty()) return text;
   // How much of a depth an application corrects is a parameter of the scene there.
-  if (subject.header.declaration.follows_method()) return "contraction judges each correction of the method";
+  if (subject.header.declaration.follows_method())
+    return "the validator contraction judges each correction of the method";
   return {};
 }
 

@@ -46,7 +46,7 @@ class Rest final : public Validator {
       const double creep = length(m.bodies[i].after.x - settled_[i]) / (time - settled_at_);
       tally_.check(creep, {share_ * f.smallest_side_m / kMinute_s + slop_m_ / (time - settled_at_), "m/s", kCreep},
                    Where::body(m.step, i, "bodies.position"),
-                   [&] { return "it creeps at " + number_text(creep) + " m/s since it settled"; });
+                   [&] { return "it has crept at " + number_text(creep) + " m/s since it settled"; });
     }
   }
 
@@ -66,14 +66,14 @@ class Rest final : public Validator {
 
 std::string why_not_rest(const Subject& subject) {
   if (std::string text = lacking(subject.header, core::bit(core::Group::kBodies)); !text.empty()) return text;
-  return subject.header.scene.answer == kStands ? "" : "the scene does not say that it stands";
+  return subject.header.scene.answer == kStands ? "" : "the scene is not one that must stand";
 }
 
 }  // namespace
 
 ValidatorRow rest_row() {
   return {"rest",
-          "a scene that stands by statics stands: its bodies stay, and do not creep",
+          "a structure that stands by the laws of statics keeps standing: its bodies stay in place and do not creep",
           "a stack that creeps 1 mm/s; a collapse",
           core::bit(core::Group::kBodies),
           0,

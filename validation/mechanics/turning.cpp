@@ -32,7 +32,7 @@ class Turning final : public Validator {
     if (too_fast_ > 0)
       note = "warning: in " + std::to_string(too_fast_) + " cases a body turned by more than 1 rad a step (at most " +
              number_text(fastest_) + "), too far for any step to follow: use a smaller dt";
-    return tally_.conclude("no moving body touched nothing for a whole step", note);
+    return tally_.conclude("no moving body was free of contact for a whole step", note);
   }
 
  private:

@@ -49,8 +49,8 @@ TEST(Ballistic, LooksAtNoBodyThatMayTouch) {
   Specimen r = one_step(2);
   r.header.scene.bodies[1].position = {1, 0, 0};
   end_step(r, [](core::WideStates& s) { s.velocity[0].x = 1.0; });
-  expect_nothing_met("ballistic", r, "no moving body touched nothing");
-  expect_nothing_met("ballistic", only_static(), "no moving body touched nothing");
+  expect_nothing_met("ballistic", r, "no moving body was free of contact");
+  expect_nothing_met("ballistic", only_static(), "no moving body was free of contact");
 }
 
 // The flight of `fallen` as a scene with an exact answer, by an engine of so many substeps a step.
@@ -137,7 +137,7 @@ TEST(Gyroscopic, SaysHowManyWereTooFast) {
   Specimen r = one_step(1, {1, 2, 3});
   r.header.scene.bodies[0].angular_velocity = {7, 0, 0};
   end_step(r, [](core::WideStates&) {});
-  expect_nothing_met("gyroscopic", r, "no moving body touched nothing");
+  expect_nothing_met("gyroscopic", r, "no moving body was free of contact");
 }
 
 // The box's side at 1/2 m, moved in.

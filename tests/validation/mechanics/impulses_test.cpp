@@ -66,7 +66,7 @@ TEST(Momentum, ReadsNoImpulsesWherePointsAreGeometry) {
 }
 
 TEST(Momentum, MeetsNothingWhereNothingMoves) {
-  expect_nothing_met("momentum", only_static(), "no step of a body");
+  expect_nothing_met("momentum", only_static(), "no step could be judged");
 }
 
 // An impulse of 1 N s across an arm of 1 m turns a body of 1 kg m^2 by 1 rad/s.

@@ -132,7 +132,7 @@ TEST(Penetration, NamesTheClass) {
 TEST(Penetration, MeetsNothingWhereNothingIsNear) {
   Specimen r = one_step(1);
   end_step(r, [](core::WideStates&) {});
-  expect_nothing_met("penetration", r, "no two bodies with convex shapes came near");
+  expect_nothing_met("penetration", r, "no body with a convex shape came near");
 }
 
 // A ball of radius 1/2 flies over a box, with its lowest point that far below the box's top.
@@ -295,13 +295,13 @@ TEST(Rest, SeesAMillimeterASecond) {
   }
   const core::Verdict v = law("rest", r);
   EXPECT_EQ(v.outcome, core::Outcome::kFail) << told(v);
-  EXPECT_NE(v.explanation.find("it creeps at 0.001 m/s"), std::string::npos) << told(v);
+  EXPECT_NE(v.explanation.find("it has crept at 0.001 m/s"), std::string::npos) << told(v);
 }
 
 TEST(Rest, IsAskedOfScenesThatStandAlone) {
   Specimen r = one_step(1);
   end_step(r, [](core::WideStates&) {});
-  expect_nothing_met("rest", r, "does not say that it stands");
+  expect_nothing_met("rest", r, "is not one that must stand");
 }
 
 // A cube at rest is struck by one at 64 m/s, strikes a fixed one `gap` away, and is back in its place when the step
