@@ -13,9 +13,10 @@ using OrderedJson = nlohmann::ordered_json;
 // Reads the column into `out`. Returns what is wrong with it; empty when nothing is.
 std::string read_numbers(const OrderedJson& row, std::string_view key, std::size_t count, std::vector<double>& out) {
   const auto at = row.find(std::string(key));
-  if (at == row.end() || !at->is_array() || at->size() != count) return std::string(key) + " has not one number a step";
+  if (at == row.end() || !at->is_array() || at->size() != count)
+    return std::string(key) + " does not have one number per step";
   for (const OrderedJson& number : *at) {
-    if (!number.is_number()) return std::string(key) + " holds something that is no number";
+    if (!number.is_number()) return std::string(key) + " has an entry that is not a number";
     out.push_back(number.get<double>());
   }
   return "";
@@ -32,7 +33,7 @@ std::string read_series(const OrderedJson& row, EnergySeries& series) {
   const auto steps = row.find("step");
   if (steps == row.end() || !steps->is_array()) return "step is not a list";
   for (const OrderedJson& step : *steps) {
-    if (!step.is_number_unsigned()) return "step holds something that is no whole number";
+    if (!step.is_number_unsigned()) return "step has an entry that is not a whole number";
     series.step.push_back(step.get<std::uint64_t>());
   }
   for (std::size_t k = 0; k < kEnergyColumnCount; ++k)

@@ -78,7 +78,7 @@ constexpr std::uint64_t kMostSeed = ~std::uint64_t{0};
 Error unknown_scene(const std::string& spec, const std::string& plain) {
   for (const BoxStreamRow& row : box_stream_table())
     if (plain.starts_with(row.prefix()))
-      return {"it is a stream of boxes, and no scene", "scene '" + spec + "'", "use 'broadside pairs " + spec + "'"};
+      return {"it is a stream of boxes, not a scene", "scene '" + spec + "'", "use 'broadside pairs " + spec + "'"};
   const std::vector<SceneRow> table = scene_table();
   std::vector<std::string_view> known;
   known.reserve(table.size());

@@ -15,8 +15,8 @@ std::span<const core::SettingRow> octree_settings() {
       {"broad",
        "tree",
        {"tree", "kept", "octree", "brute"},
-       "where candidates come from: tree = the fast octree; kept = the same, and of boxes alone keeping what still "
-       "holds between frames; octree = P-Alg 1; brute = the levels' published start"},
+       "where candidates come from: tree = the fast octree; kept = the same, for boxes alone keeping pairs that "
+       "still hold from frame to frame; octree = P-Alg 1; brute = all pairs, the levels' published start"},
       core::levels_setting(),
       core::solver_setting(),
       core::variant_setting(),
@@ -26,9 +26,15 @@ std::span<const core::SettingRow> octree_settings() {
       core::thresholds_setting(),
       core::sleep_setting(),
       core::sweep_setting(),
-      {"pairs_at_once", "0", {}, "boxes alone: room on the device for so many pairs, found in chunks; 0 = for all"},
-      {"parts", "0", {}, "boxes alone: ranges of space, searched each on a device; 0 = one for each device"},
-      {"devices", "1", {}, "boxes alone: GPUs that share them; 0 = all that there are"},
+      {"pairs_at_once",
+       "0",
+       {},
+       "boxes alone: how many pairs the device has room for; they are found in chunks; 0 = room for all"},
+      {"parts",
+       "0",
+       {},
+       "boxes alone: number of ranges of space, each searched on one device; 0 = one for each device"},
+      {"devices", "1", {}, "boxes alone: number of GPUs that share them; 0 = all GPUs"},
   };
   return kSettings;
 }

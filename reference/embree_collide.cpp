@@ -175,8 +175,8 @@ core::Result<core::Engine> create(const core::Settings& settings) {
   const std::string config = "threads=" + std::to_string(workers);
   Device device(rtcNewDevice(config.c_str()));
   if (device == nullptr)
-    return core::Error{"Embree makes no device, error " + std::to_string(rtcGetDeviceError(nullptr)), std::string(kId),
-                       "its packages need a CPU with SSE2 at least", core::Exit::kMissing};
+    return core::Error{"Embree cannot make a device: error " + std::to_string(rtcGetDeviceError(nullptr)),
+                       std::string(kId), "its packages need a CPU with SSE2 at least", core::Exit::kMissing};
   core::Engine engine;
   engine.id = kId;
   engine.build = build_of(device.get());

@@ -53,21 +53,22 @@ std::string advice_for(const DeclarationKey& row, const std::string& text) {
 
 std::span<const DeclarationKey> declaration_keys() {
   static const std::array<DeclarationKey, 18> kRows{{
-      {"method", kWord, "none", {"none", kMethodName}, "whether the laws of METHOD hold for it"},
+      {"method", kWord, "none", {"none", kMethodName}, "whether the laws of METHOD apply to it"},
       {"twin_of", kText, "", {}, "the engine whose results it repeats bit by bit: determinism"},
       {"motion", kWord, "rigid", {"translate", "rigid"}, "whether bodies may turn"},
       {"detection_at",
        kWord,
        "end",
        {"start", "end", "midway", "within"},
-       "the pose that boxes and gaps belong to: start or end of the step, or one between that is recorded; within: the "
-       "start, and points found again within the step are told where their surfaces were at its start"},
+       "the pose that boxes and gaps belong to: start or end of the step, or a recorded one in between; within: "
+       "the start, and points found later in the step are given where their surfaces were at its start"},
       {"contacts",
        kWord,
        "none",
        {"none", "applications", "totals", "geometry"},
-       "each application of the response; one row a point and step; or such rows without impulses"},
-      {"integrator", kText, "", {}, "its name, for people"},
+       "applications: one row for each application of the response; totals: one for each point and step; geometry: "
+       "the same without impulses"},
+      {"integrator", kText, "", {}, "its name, which no law reads"},
       {"order", kCount, "1", {}, "order of convergence in the step: closed-form"},
       {"substeps", kCount, "1", {}, "substeps of a step"},
       {"iterations", kCount, "1", {}, "how often a step applies each contact: the rounding of momentum"},
@@ -75,7 +76,7 @@ std::span<const DeclarationKey> declaration_keys() {
        kWord,
        "cone",
        {"cone", "pyramid", "regularized"},
-       "pyramid: sqrt 2 of the cone along its diagonals; regularized: creeps below a speed"},
+       "pyramid: up to sqrt 2 times the cone along its diagonals; regularized: sticking contacts creep"},
       {"contact_model", kWord, "rigid", {"rigid", "compliant"}, "compliant contacts store energy and sink in"},
       {"contact_time_s", kNumber, "0", {}, "time constant of compliant contacts, s: penetration, rest, energy"},
       {"contact_margin_m", kNumber, "0", {}, "gap up to which an impulse may act, m: unilateral"},
@@ -89,13 +90,14 @@ std::span<const DeclarationKey> declaration_keys() {
        kNumber,
        "0",
        {},
-       "a body no point of which is faster may be stopped and held there, m/s; 0: none is: momentum, angular-momentum"},
+       "a body may be stopped and held while none of its points is faster, m/s; 0: no body sleeps: momentum, "
+       "angular-momentum"},
       {"accuracy", kNumber, "0", {}, "relative error that a step's error control allows: energy"},
       {"precision",
        kWord,
        "f64",
        {"f32", "f64"},
-       "of its arithmetic; rounding is that of the coarser of it and the trace"},
+       "of its arithmetic; limits take the rounding of this or of the trace, whichever is coarser"},
   }};
   return kRows;
 }

@@ -47,7 +47,7 @@ class OffCheck {
     std::ostringstream content;
     content << std::ifstream(path_, std::ios::binary).rdbuf();
     bytes_ = std::move(content).str();
-    if (bytes_.find('\0') != std::string::npos) return bad("it is no text");
+    if (bytes_.find('\0') != std::string::npos) return bad("it is not a text file");
     if (Status s = read_header(); !s) return s;
     for (std::uint64_t v = 0; v < vertices_; ++v) {
       if (!next_line()) return bad("it has " + std::to_string(v) + " of " + std::to_string(vertices_) + " vertices");

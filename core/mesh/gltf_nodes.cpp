@@ -26,7 +26,7 @@ class NodeTree {
       for (const Json& child : nodes[k]["children"]) {
         if (!is_node(child)) return node_text(k) + " has a child that does not exist";
         const auto number = child.get<std::size_t>();
-        if (has_parent_[number]) return node_text(number) + " has two parents, and nodes form a tree";
+        if (has_parent_[number]) return node_text(number) + " has two parents, but nodes must form a tree";
         has_parent_[number] = true;
         children_[k].push_back(number);
       }
@@ -48,7 +48,7 @@ class NodeTree {
       for (const std::size_t k : level) next.insert(next.end(), children_[k].begin(), children_[k].end());
       level = std::move(next);
     }
-    return reached == children_.size() ? "" : "a node is within itself, and nodes form a tree";
+    return reached == children_.size() ? "" : "a node is its own ancestor, but nodes must form a tree";
   }
 
   [[nodiscard]] std::string check_scene(const Json& scene) const {

@@ -22,7 +22,7 @@ inline SettingRow variant_setting() {
 }
 
 inline SettingRow vertex_stage_setting() {
-  return {"vertex_stage", "on", {"on", "off"}, "off: overlapping boxes of the last level are the verdict"};
+  return {"vertex_stage", "on", {"on", "off"}, "off: bodies touch if boxes of their last level overlap"};
 }
 
 inline SettingRow cell_setting() {
@@ -33,12 +33,12 @@ inline SettingRow contact_setting() {
   return {"contact",
           "conjugate",
           {"conjugate", "soft-step", "stiff"},
-          "bodies that turn: how contacts of a step are solved together; soft-step = one sweep a "
-          "substep, stiff = for what stands by little, at many times the cost"};
+          "bodies that turn: how contacts of a step are solved together; soft-step = one sweep a substep, stiff = "
+          "for structures that barely stand, at many times the cost"};
 }
 
 inline SettingRow substeps_setting() {
-  return {"substeps", "0", {}, "bodies that turn: substeps of a step; 0 = what the solver takes"};
+  return {"substeps", "0", {}, "bodies that turn: substeps of a step; 0 = the solver's own choice"};
 }
 
 inline SettingRow thresholds_setting() {
@@ -53,16 +53,15 @@ inline SettingRow sleep_setting() {
   return {"sleep",
           "off",
           {"off", "on"},
-          "bodies that turn: on = those that stand still together stop being solved until something awake touches "
-          "them"};
+          "bodies that turn: on = groups of touching bodies at rest are not solved until an awake body touches them"};
 }
 
 inline SettingRow sweep_setting() {
   return {"sweep",
           "flagged",
           {"flagged", "fast", "off"},
-          "bodies that turn: who moves farther in a step than it is thick stops before it passes through others: "
-          "flagged = bodies that the scene calls fast, fast = all, off = none"};
+          "bodies that turn: a body that moves farther in a step than it is thick stops before it passes through "
+          "others: flagged = bodies that the scene marks as fast, fast = all, off = none"};
 }
 
 }  // namespace broadside::core

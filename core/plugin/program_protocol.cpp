@@ -8,7 +8,7 @@ namespace broadside::core {
 namespace {
 
 constexpr std::string_view kAdvice =
-    "standard output carries the protocol alone, and text for people goes to standard error";
+    "write only the protocol to standard output, and text for people to standard error";
 
 // These structs have no padding, so the bytes that are sent are those that PROGRAMS.md lists.
 static_assert(sizeof(broadside_box) == 24 && sizeof(broadside_pair) == 8 && sizeof(broadside_pose) == 28);
@@ -89,7 +89,7 @@ Result<ProgramHello> read_hello(std::span<const std::byte> payload) {
     return garbled("its answer to hello does not begin with " + std::string(kProtocolMagic));
   const auto version = reader.get<std::uint32_t>();
   if (version != kProtocolVersion)
-    return Error{"it speaks version " + std::to_string(version) + " of the protocol, and this program version " +
+    return Error{"it speaks version " + std::to_string(version) + " of the protocol, but this program speaks version " +
                      std::to_string(kProtocolVersion),
                  "", "answer hello with a version from its lowest to its highest", Exit::kBadInput};
   ProgramHello hello;
@@ -117,7 +117,7 @@ Result<ProgramHello> read_hello(std::span<const std::byte> payload) {
   }
   if (!reader.is_read_whole())
     return garbled(reader.failed() ? "its answer to hello ends in the middle of a value"
-                                   : "its answer to hello goes on for " + std::to_string(reader.left()) + " bytes");
+                                   : "its answer to hello is too long by " + std::to_string(reader.left()) + " bytes");
   if (is_exact > 1) return garbled("is_exact of its answer to hello is neither 0 nor 1");
   if (!std::isfinite(hello.margin_m) || hello.margin_m < 0.0)
     return garbled("margin_m of its answer to hello is not a finite number of 0 or more");
@@ -151,8 +151,8 @@ Result<AnswerHead> read_answer_head(std::span<const std::byte, 8> head, std::uin
   if (length >= sizeof status && is_known && length - sizeof status <= most)
     return AnswerHead{static_cast<std::uint32_t>(length - sizeof status), status == kAnswerFailed};
   const std::string_view seen(reinterpret_cast<const char*>(head.data()), head.size());
-  return garbled("its answer begins with the bytes '" + shown_text(seen) + "', which are no length of at most " +
-                 std::to_string(most_bytes + sizeof status) + " and no status of 0 or 1");
+  return garbled("its answer begins with the bytes '" + shown_text(seen) + "', which are not a length of at most " +
+                 std::to_string(most_bytes + sizeof status) + " and a status of 0 or 1");
 }
 
 std::string shown_text(std::string_view text) {

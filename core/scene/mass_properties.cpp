@@ -128,8 +128,8 @@ bool crosses_itself(const Mesh& mesh) {
 std::string why_hull(const Mesh& mesh) {
   const Topology surface = topology(mesh);
   if (!surface.is_closed()) return "the mesh is open";
-  if (surface.misoriented_edges > 0) return "the mesh's triangles turn both ways";
-  if (!(moments_of(mesh).volume > 0.0)) return "the mesh encloses no volume above zero";
+  if (surface.misoriented_edges > 0) return "the mesh's triangles are not all wound the same way";
+  if (!(moments_of(mesh).volume > 0.0)) return "the mesh encloses no positive volume";
   return crosses_itself(mesh) ? "the mesh crosses itself" : "";
 }
 

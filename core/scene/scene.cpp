@@ -131,7 +131,8 @@ Status check_motion(const Scene& scene) {
   if (!scene.mass_properties.empty() && scene.mass_properties.size() != scene.bodies.size())
     return bad(scene, "bodies", "some bodies have mass properties and some have none", "give them for every body");
   if (scene.motion == Motion::kRigid && !scene.springs.empty())
-    return bad(scene, "springs", "springs hold bodies that translate", "leave out springs, or motion = \"rigid\"");
+    return bad(scene, "springs", "springs work only on bodies that translate",
+               "leave out springs, or motion = \"rigid\"");
   for (std::uint32_t i = 0; i < scene.body_count(); ++i) {
     if (!(scene.bodies[i].inverse_mass > 0.0F)) continue;
     if (scene.mass_properties.empty()) continue;

@@ -66,7 +66,7 @@ Status write_frames(PartFile& part, std::uint64_t frames, const NextBoxes& next)
     if (boxes.value().size() != count)
       return Error{"frame " + std::to_string(k) + " has " + std::to_string(boxes.value().size()) + " boxes, not " +
                        std::to_string(count),
-                   part.path().string(), "give every frame as many"};
+                   part.path().string(), "give every frame the same number of boxes"};
     if (!set || !write_frame(set.get(), k, boxes.value()) || part.refused() != 0) return refused();
   }
   if (!set.close() || !file.close() || part.refused() != 0 || part.sync() != 0) return refused();

@@ -12,7 +12,8 @@ namespace broadside::core {
 std::string RecoverReport::line() const {
   std::string text = std::to_string(frames_kept) + " of " + std::to_string(frames_planned) +
                      " frames recovered (up to step " + std::to_string(last_step) + ")";
-  if (frames_begun > frames_kept) text += "; " + std::to_string(frames_begun - frames_kept) + " more had been begun";
+  if (frames_begun > frames_kept)
+    text += "; " + std::to_string(frames_begun - frames_kept) + " more were begun but not finished";
   return text;
 }
 

@@ -15,7 +15,7 @@ struct RecoverReport {
   std::uint64_t frames_planned = 0;  // frames of the complete recording: the scene's frames / every
   std::uint64_t last_step = 0;       // step of the last frame that was kept
 
-  // "412 of 3000 frames recovered (up to step 412); 3 more had been begun".
+  // "412 of 3000 frames recovered (up to step 412); 3 more were begun but not finished".
   [[nodiscard]] std::string line() const;
 };
 

@@ -21,7 +21,7 @@ namespace {
 // The file's format version, 1 or 2; any other is reported to source.
 std::uint32_t read_format(Hdf5Source& source) {
   if (!source.has_attribute("/", "format") || source.text("/", "format") != "broadside-trace") {
-    source.fail("/@format", "it is an HDF5 file but no Broadside trace",
+    source.fail("/@format", "it is an HDF5 file but not a Broadside trace",
                 "give a trace file as broadside run --record writes it");
     return 0;
   }

@@ -42,7 +42,7 @@ Status check_header(const std::filesystem::path& path, const TraceHeader& header
   const auto has = [&header](Group g) { return (header.groups & bit(g)) != 0U; };
   if ((has(Group::kWideBodies) && !has(Group::kBodies)) ||
       (has(Group::kDetectedOrientation) && !has(Group::kDetection)))
-    return misuse(path, "a group is there without the one that it adds to",
+    return misuse(path, "a group is recorded without the one that it extends",
                   "give float64 states with the group of states");
   if (header.every == 0) return misuse(path, "every is 0", "record every 1st frame or fewer");
   for (const auto& [name, value] : header.notes)

@@ -115,8 +115,8 @@ std::string words_of(const BoxKind& kind, double pairs_a_box) {
   char text[400];
   std::snprintf(
       text, sizeof text,
-      "%llu boxes, longest side %.3g to %.3g m (median %.3g), shortest to longest %.2g (median), %.3g %% over "
-      "16 times longer than thick, half of them in %.3g %% of the world's cells, %.3g pairs a box",
+      "%llu boxes, longest side %.3g to %.3g m (median %.3g), shortest to longest %.2g (median), %.3g %% over 16 "
+      "times longer than thick, half of all boxes in %.3g %% of the world's cells, %.3g pairs a box",
       static_cast<unsigned long long>(kind.boxes), kind.least_m, kind.most_m, kind.median_m, kind.flatness,
       100.0 * kind.thin_share, 100.0 * kind.cells_of_half, pairs_a_box);
   return text;

@@ -77,7 +77,8 @@ constexpr std::array<BoxSet, 28> kBoxSets{{
     {{"boxes:identical:N", "boxes:identical:1000", "one box N times: every pair overlaps", false},
      still<identical_boxes>,
      kMostIdentical},
-    {{"boxes:touching:N", "boxes:touching:1000", "unit cubes on a lattice that touch and never overlap by more", false},
+    {{"boxes:touching:N", "boxes:touching:1000", "unit cubes on a lattice: neighbors touch and overlap no further",
+      false},
      still<touching_boxes>},
     {{"boxes:line:N", "boxes:line:1000", "centers on one line"}, still<line_boxes>},
     {{"boxes:plane:N", "boxes:plane:1000", "centers in one plane"}, still<plane_boxes>},
@@ -121,7 +122,7 @@ constexpr std::array<BoxSet, 28> kBoxSets{{
 }};
 
 constexpr BoxStreamRow kMeshStream{"boxes:mesh:NAME[:copies]", "boxes:mesh:bunny:20",
-                                   "triangles of a mesh of the catalogue; of several copies: turned, in a heap", true,
+                                   "triangles of a mesh of the catalogue; several copies lie turned, in a heap", true,
                                    false};
 
 Result<BoxStream> from_mesh(const std::string& spec, std::uint64_t seed) {

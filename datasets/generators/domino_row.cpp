@@ -7,10 +7,11 @@ namespace broadside::datasets {
 namespace {
 
 constexpr SceneKnob kDominoRowKnobs[] = {
-    {"gap", 0.1, 0.0, 10.0, "between bodies, as a share of the longest side"},
-    {"speed_m_s", 5.0, 0.0, 50.0, "of the first, along the row, m/s"},
-    {"restitution", 1.0, 0.0, 1.0, "of the bodies"},
-    {"topple_m_s", 0.0, 0.0, 50.0, "of the first one's top, which tips over its lower edge toward the others, m/s"},
+    {"gap", 0.1, 0.0, 10.0, "gap between bodies, as a share of the longest side"},
+    {"speed_m_s", 5.0, 0.0, 50.0, "speed of the first body along the row, m/s"},
+    {"restitution", 1.0, 0.0, 1.0, "restitution of the bodies"},
+    {"topple_m_s", 0.0, 0.0, 50.0,
+     "speed of the first body's top, m/s: the body tips over its lower edge toward the others"},
 };
 
 // Makes a body tip over its lower edge, toward x. A body that only translates keeps just the velocity.

@@ -8,8 +8,9 @@ namespace broadside::datasets {
 namespace {
 
 constexpr SceneKnob kDropKnobs[] = {
-    {"speed_m_s", 1.0, 0.0, 1000.0, "at which bodies come down, m/s: at 200 they fall past the plate in a step"},
-    {"thickness", 0.1, 0.01, 1.0, "of the plate, as a share of the longest side"},
+    {"speed_m_s", 1.0, 0.0, 1000.0,
+     "speed at which bodies come down, m/s; at 200 they move past the plate in one step"},
+    {"thickness", 0.1, 0.01, 1.0, "thickness of the plate, as a share of the longest side"},
 };
 
 // Bodies in a row above one plate, which is far above the floor, so that a body that passes through the plate is

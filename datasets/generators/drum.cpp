@@ -14,7 +14,7 @@ namespace {
 
 constexpr SceneKnob kDrumKnobs[] = {
     {"fill", 0.4, 0.05, 0.7, "share of the drum that the bodies and their gaps take"},
-    {"depth", 2.2, 1.1, 100.0, "of the drum, in longest sides"},
+    {"depth", 2.2, 1.1, 100.0, "depth of the drum, in longest sides"},
 };
 
 constexpr double kPitch = 1.1;  // distance of the bodies at the start, in longest sides

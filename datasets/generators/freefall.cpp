@@ -6,10 +6,10 @@ namespace broadside::datasets {
 namespace {
 
 constexpr SceneKnob kFreefallKnobs[] = {
-    {"gap", 0.1, 0.0, 100.0, "between cells, as a share of the longest side"},
-    {"drop_m", 1.0, 0.0, 1e6, "from the floor to the lowest boxes, m"},
+    {"gap", 0.1, 0.0, 100.0, "gap between cells, as a share of the longest side"},
+    {"drop_m", 1.0, 0.0, 1e6, "height of the lowest boxes above the floor, m"},
     {"jitter", 0.45, 0.0, 10.0, "largest shift per axis as a share of the gap; below 0.5 no two boxes touch"},
-    {"width_of_grid", 2.0, 1.0, 1000.0, "the domain's width in widths of the grid"},
+    {"width_of_grid", 2.0, 1.0, 1000.0, "the domain's width, as a multiple of the grid's"},
 };
 
 core::Scene freefall(const GivenScene& given) {

@@ -11,9 +11,9 @@ namespace {
 
 constexpr SceneKnob kFunnelKnobs[] = {
     {"outlet", 1.6, 1.0, 100.0, "width of the opening, in longest sides"},
-    {"drop_m", 3.0, 0.0, 1e6, "from the floor to the opening, m"},
-    {"speed_m_s", 1.0, 0.0, 50.0, "sideways at the start, in random directions, m/s"},
-    {"friction", 0.0, 0.0, 10.0, "of all surfaces"},
+    {"drop_m", 3.0, 0.0, 1e6, "height of the opening above the floor, m"},
+    {"speed_m_s", 1.0, 0.0, 50.0, "sideways speed at the start, in random directions, m/s"},
+    {"friction", 0.0, 0.0, 10.0, "friction of all surfaces"},
 };
 
 core::Scene funnel(const GivenScene& given) {

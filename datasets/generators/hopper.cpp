@@ -11,8 +11,8 @@ namespace {
 
 constexpr SceneKnob kHopperKnobs[] = {
     {"opening", 1.0, 0.1, 1.0, "share of the bin's width that is open below; a body on the lip stays there"},
-    {"drop_m", 2.0, 0.0, 1e6, "from the floor to the bin, m"},
-    {"ground", 4.0, 1.0, 1000.0, "width of the floor in widths of the bin"},
+    {"drop_m", 2.0, 0.0, 1e6, "height of the bin above the floor, m"},
+    {"ground", 4.0, 1.0, 1000.0, "width of the floor, as a multiple of the bin's"},
 };
 
 core::Scene hopper(const GivenScene& given) {

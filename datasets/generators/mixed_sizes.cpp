@@ -14,9 +14,9 @@ namespace broadside::datasets {
 namespace {
 
 constexpr SceneKnob kMixedSizesKnobs[] = {
-    {"smallest", 0.25, 0.01, 1.0, "of the sizes, as a share of the longest side"},
+    {"smallest", 0.25, 0.01, 1.0, "smallest size, as a share of the longest side"},
     {"largest", 2.0, 1.0, 100.0,
-     "of the sizes, as a share of the longest side; each is less frequent than the next smaller"},
+     "largest size, as a share of the longest side; each size is less frequent than the next smaller one"},
 };
 
 constexpr std::uint32_t kSizes = 8;

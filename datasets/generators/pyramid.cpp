@@ -7,7 +7,7 @@ namespace broadside::datasets {
 namespace {
 
 constexpr SceneKnob kPyramidKnobs[] = {
-    {"gap", 0.05, 0.0, 0.9, "between neighbors of a layer, as a share of the longest side"},
+    {"gap", 0.05, 0.0, 0.9, "gap between neighbors of a layer, as a share of the longest side"},
 };
 
 core::Scene pyramid(const GivenScene& given) {

@@ -134,7 +134,7 @@ constexpr std::array<SmallSceneRow, 18> kSmallScenes{{
     {"two-body:slide", "a cube slides over the floor until friction stops it", slide},
     {"two-body:rest", "a cube rests on the floor", rest},
     {"two-body:resting", "a cube rests on a static one under gravity", resting},
-    {"two-body:stack", "1000 kg on 1 kg on the floor: sinks, a limit of solving contacts once a step", stack},
+    {"two-body:stack", "1000 kg on 1 kg on the floor: sinks, because each contact is solved only once a step", stack},
     {"two-body:apart", "two cubes that never touch", apart},
 }};
 

@@ -8,7 +8,7 @@ namespace broadside::datasets {
 namespace {
 
 constexpr SceneKnob kTowerKnobs[] = {
-    {"gap", 0.0, 0.0, 10.0, "between bodies, as a share of the longest side"},
+    {"gap", 0.0, 0.0, 10.0, "gap between bodies, as a share of the longest side"},
     {"offset", 0.1, 0.0, 0.45, "largest shift of a body to the side, as a share of the longest side"},
 };
 

@@ -8,8 +8,8 @@ namespace broadside::datasets {
 namespace {
 
 constexpr SceneKnob kWallKnobs[] = {
-    {"speed_m_s", 15.0, 0.0, 50.0, "of the projectile, m/s"},
-    {"projectile_mass_kg", 10.0, 1e-3, 1e6, "the others have 1 kg each"},
+    {"speed_m_s", 15.0, 0.0, 50.0, "speed of the projectile, m/s"},
+    {"projectile_mass_kg", 10.0, 1e-3, 1e6, "mass of the projectile, kg; the others have 1 kg each"},
 };
 
 core::Scene wall(const GivenScene& given) {

@@ -170,7 +170,7 @@ core::Status PairFinder::Impl::place_by_host(const core::DeviceBoxes& given, boo
 
 core::Status PairFinder::Impl::place_on_device(const core::DeviceBoxes& given, bool is_new) {
   if (options.broad == Broad::kHash)
-    return core::Error{"it takes boxes from the host alone", "spatial hash on the GPU",
+    return core::Error{"it takes boxes only from the host", "spatial hash on the GPU",
                        "take octree-gpu, or copy the boxes to the host"};
   if (!is_new && is_by_host) return place_by_host(given, false);
   plan = {};
@@ -308,7 +308,7 @@ core::Result<core::DevicePairs> PairFinder::pairs_on_device() const {
   auto device = current_device();
   if (!device.ok()) return device.error();
   if (impl_->is_chunked())
-    return core::Error{"pairs are handed on in chunks, and are nowhere together", "broad phase on the GPU",
+    return core::Error{"pairs are handed on in chunks, so no list of all of them exists", "broad phase on the GPU",
                        "take them by hand_on, or leave out pairs_at_once"};
   BROADSIDE_TRY(impl_->join());
   return core::DevicePairs{impl_->all.data, impl_->all.count, device.value()};

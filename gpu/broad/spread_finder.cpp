@@ -301,8 +301,8 @@ const core::PassPlan& SpreadFinder::plan() const {
 
 core::Result<std::uint64_t> SpreadFinder::digest() {
   if (impl_->is_chunked())
-    return core::Error{"pairs are handed on in chunks, and are nowhere together", "a set that is spread over devices",
-                       "take them by hand_on, or leave out pairs_at_once"};
+    return core::Error{"pairs are handed on in chunks, so no list of all of them exists",
+                       "a set that is spread over devices", "take them by hand_on, or leave out pairs_at_once"};
   const DeviceScope scope;
   std::uint64_t sum = 0;
   for (const SpreadSearch& search : impl_->searches) {

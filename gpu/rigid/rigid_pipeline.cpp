@@ -130,7 +130,7 @@ core::Status RigidPipeline::Impl::refit(const RigidCounts& counts) {
   const auto coordinate = std::bit_cast<float>(counts.largest_coordinate);
   const float most = std::numeric_limits<float>::max() / (2.0F * kRoomForSpeed);
   if (!(side < most && coordinate < most))
-    return core::Error{"a body has left the finite numbers", "step " + std::to_string(steps + 1) + " of octree-gpu",
+    return core::Error{"a body's state is no longer finite", "step " + std::to_string(steps + 1) + " of octree-gpu",
                        "take a shorter step, or look for bodies that start inside each other"};
   const Start before = start();
   facts.largest_side_m = std::max(facts.largest_side_m, kRoomForSpeed * side);

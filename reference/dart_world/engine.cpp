@@ -21,8 +21,8 @@ std::span<const core::SettingRow> setting_rows() {
       {"detector",
        "fcl-mesh",
        {"fcl-mesh", "fcl-primitive", "dart"},
-       "who finds contacts: FCL on meshes of the shapes, as DART ships, FCL on primitives, or DART's own code"},
-      {"solver", "dantzig", {"dantzig", "pgs"}, "of impulses: pivoting, or projected Gauss-Seidel"},
+       "what finds contacts: FCL on meshes of the shapes, as DART ships, FCL on primitives, or DART's own code"},
+      {"solver", "dantzig", {"dantzig", "pgs"}, "solver of impulses: pivoting, or projected Gauss-Seidel"},
   }};
   return kSettings;
 }

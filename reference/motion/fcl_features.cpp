@@ -61,7 +61,10 @@ class Features final : public core::FeatureMotionQuery {
 
 std::span<const core::SettingRow> fcl_features_settings() {
   static const std::array<core::SettingRow, 2> kSettings{{
-      {"filter", "none", {"none", "plane"}, "FCL's filtered form tests first whether a fixed plane parts the features"},
+      {"filter",
+       "none",
+       {"none", "plane"},
+       "FCL's filtered form tests first whether a fixed plane separates the features"},
       {"root", "newton", {"newton", "cubic"}, "how the coplanar times are found: by Newton's method or in closed form"},
   }};
   return kSettings;

@@ -38,7 +38,10 @@ class Features final : public core::FeatureMotionQuery {
 
 std::span<const core::SettingRow> setting_rows() {
   static const std::array<core::SettingRow, 2> kSettings{{
-      {"lanes", "widest", {"widest", "1", "4", "8"}, "many queries at once: so many side by side; the same answers"},
+      {"lanes",
+       "widest",
+       {"widest", "1", "4", "8"},
+       "how many queries are computed side by side; the answers are the same"},
       threads_setting(),
   }};
   return kSettings;
@@ -63,9 +66,8 @@ core::Result<core::MotionEngine> create(const core::Settings& settings) {
 }  // namespace
 
 core::MotionEngineRow feature_impact_row() {
-  return {"feature-impact",
-          "our own first touch of features: directions and volumes that part them, certified in double", setting_rows(),
-          create, true};
+  return {"feature-impact", "our own first touch of features: separating directions and volumes, certified in double",
+          setting_rows(), create, true};
 }
 
 }  // namespace broadside::reference

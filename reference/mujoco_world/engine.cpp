@@ -25,7 +25,8 @@ std::span<const core::SettingRow> setting_rows() {
       {"tuning",
        "default",
        {"default", "recommended"},
-       "recommended: elliptic cones, friction harder than contact, many points of convex bodies (see the card)"},
+       "recommended: elliptic cones, friction stiffer than the normal force, many points of convex bodies (see the "
+       "card)"},
       {"contact_time_ms", "20", {}, "time constant of contacts (solref), ms; 20 is what MuJoCo ships"},
   }};
   return kSettings;

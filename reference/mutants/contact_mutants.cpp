@@ -160,7 +160,7 @@ std::span<const Mutant> contact_table() {
               return g;
             }}},
       {"face-depth-of-center",
-       "a body meets a face when its center does",
+       "a body touches a face only when its center does",
        "state-sanity",
        "mixed",
        {.face_geometry =
@@ -179,7 +179,7 @@ std::span<const Mutant> contact_table() {
               std::fill(order.color.begin(), order.color.end(), 0U);
             }}},
       {"applies-beta-twice",
-       "beta is multiplied in twice",
+       "beta is applied twice",
        "contraction",
        "mixed",
        {.respond = [](const World&, const Application& a) { a.apply_with([](Parameters& q) { q.beta *= q.beta; }); }}},
@@ -221,7 +221,7 @@ std::span<const Mutant> contact_table() {
               c.post_b.x = c.pre_b.x - 0.5F * apart;
             }}},
       {"moves-one-body",
-       "A alone is corrected, by the whole",
+       "only A is corrected, by the whole correction",
        "center-of-mass",
        "errata:E3",
        {.store =

@@ -129,7 +129,7 @@ std::span<const Mutant> pair_table() {
               });
             }}},
       {"touching-does-not-count",
-       "boxes that touch are taken for apart",
+       "boxes that touch count as apart",
        "candidate-set",
        "touching",
        {.candidates =
@@ -203,7 +203,7 @@ std::span<const Mutant> pair_table() {
               });
             }}},
       {"truncates-list",
-       "only two pairs fit, and more were demanded",
+       "only two pairs fit, but more are demanded",
        "capacity",
        "pile",
        {.candidates =

@@ -172,7 +172,7 @@ std::span<const Mutant> state_table() {
        "springs:hanging",
        {.integrate = [](const World& w, std::uint32_t i, Vec3) { return sound_step(w, i, spring_pull(w, i, -1.0F)); }}},
       {"springs-explicit",
-       "what hangs on springs moves with the velocity before they acted",
+       "bodies on springs move with the velocity before the springs acted",
        "stability",
        "springs:hanging",
        {.integrate =
@@ -182,7 +182,7 @@ std::span<const Mutant> state_table() {
               return s;
             }}},
       {"order-of-threads",
-       "contacts are resolved in an order that the run decides",
+       "contacts are resolved in an order that differs from run to run",
        "determinism",
        "pile",
        {.order =
@@ -215,7 +215,7 @@ std::span<const Mutant> state_table() {
             }},
        Showing::kSecondRun},
       {"reads-the-clock",
-       "the step is what a clock says, not dt",
+       "the step is taken from a clock, not from dt",
        "determinism",
        "mixed",
        {.integrate =
@@ -231,7 +231,7 @@ std::span<const Mutant> state_table() {
        {.combine = [](const Material& a, const Material&) { return a; }},
        Showing::kRenumbered},
       {"ids-break-pairs",
-       "pairs of even ids are taken for tested",
+       "pairs of even ids count as tested",
        "metamorphic",
        "pile",
        {.candidates =

@@ -25,11 +25,11 @@ std::span<const core::SettingRow> settings_table() {
       {"broad",
        "tree",
        {"tree", "kept", "octree", "brute"},
-       "where candidates come from: tree = the fast octree; kept = the same, keeping what still holds between frames; "
-       "octree = P-Alg 1; brute = the levels' published start"},
+       "where candidates come from: tree = the fast octree; kept = the same, keeping pairs that still hold from "
+       "frame to frame; octree = P-Alg 1; brute = all pairs, the levels' published start"},
       core::levels_setting(),
       core::solver_setting(),
-      {"threads", "0", {}, "threads; 0 = all. Does not change a bit of the result"},
+      {"threads", "0", {}, "threads; 0 = all. The result is the same to the bit"},
       core::variant_setting(),
       core::vertex_stage_setting(),
       core::contact_setting(),
@@ -106,7 +106,7 @@ core::EngineRow octree_cpu_row() {
   core::EngineRow row;
   row.id = "octree-cpu";
   row.capabilities = "broad dynamics";
-  row.what = "the pipeline's own stage bodies on CPU threads: the twin of octree-gpu";
+  row.what = "the pipeline's own stages on CPU threads: the twin of octree-gpu";
   row.settings = settings_table();
   row.runs_in_child = false;
   row.create = create;

@@ -19,12 +19,12 @@ constexpr std::string_view kId = "ode-world";
 std::span<const core::SettingRow> setting_rows() {
   static const std::array<core::SettingRow, 5> kSettings{{
       {"solver", "quick", {"quick", "dantzig"}, "dWorldQuickStep, which iterates, or dWorldStep, which pivots"},
-      {"iterations", "20", {}, "of QuickStep; 20 is ODE's default"},
+      {"iterations", "20", {}, "iterations of QuickStep; 20 is ODE's default"},
       {"tuning",
        "default",
        {"default", "recommended"},
        "recommended: a surface layer of 0.001 m against jitter, as ODE's manual says"},
-      {"gyroscopic", "on", {"on", "off"}, "the torque that turns w about L; ODE has it on"},
+      {"gyroscopic", "on", {"on", "off"}, "the gyroscopic torque; ODE's default is on"},
       {"convex", "hull", {"hull", "mesh"}, "convex bodies as ODE's convex geom, or as their triangles"},
   }};
   return kSettings;
@@ -49,7 +49,7 @@ core::EquivalenceCard card_of(const core::Scene& scene, const OdeOptions& o) {
     card.push_back({"shape of " + mesh->name, shape_word(solid, o), solid.differs});
   }
   const core::Parameters& p = scene.parameters;
-  card.push_back({"shape margin", "none: the surface layer is apart", ""});
+  card.push_back({"shape margin", "none: the surface layer is separate", ""});
   card.push_back({"broad-phase margin", "none", ""});
   card.push_back({"warm starting", "none", ""});
   card.push_back({"contact margin", "none", ""});

@@ -14,7 +14,10 @@ constexpr std::string_view kId = "plain-rigid";
 
 std::span<const core::SettingRow> setting_rows() {
   static const std::array<core::SettingRow, 1> kSettings{{
-      {"iterations", "300", {}, "at most so many passes of the contact solver, forward and backward over all points"},
+      {"iterations",
+       "300",
+       {},
+       "at most this many passes of the contact solver, each forward and backward over all points"},
   }};
   return kSettings;
 }
@@ -23,7 +26,7 @@ core::EquivalenceCard card_of(const core::Scene& scene, const plain::WorldOption
   core::EquivalenceCard card = own_card("Broadside, float64", "float64", "none", 1);
   card.push_back({"shape margin", "none", ""});
   card.push_back({"contact margin", "none: a gap may close within the step, no more", ""});
-  card.push_back({"broad-phase margin", "how far bodies may come in the step", ""});
+  card.push_back({"broad-phase margin", "how far bodies may move in the step", ""});
   card.push_back({"friction rule", "geometric mean", ""});
   card.push_back({"restitution rule", "the larger, before gravity acts", ""});
   card.push_back({"contact solver", "projected Gauss-Seidel along conjugate directions, from the step before",
@@ -57,7 +60,7 @@ core::EngineRow plain_rigid_row() {
   core::EngineRow row;
   row.id = kId;
   row.capabilities = "dynamics";
-  row.what = "boxes, spheres and convex meshes that turn: serial, float64, plainly right";
+  row.what = "boxes, spheres and convex meshes that turn: serial, float64, written to be easily checked";
   row.settings = setting_rows();
   row.runs_in_child = false;
   row.create = create;

@@ -56,7 +56,7 @@ class PluginBroadPhase final : public core::BroadPhase {
               table().read_pairs(instance_->self(), reinterpret_cast<broadside_pair*>(out), room, demanded),
               "read_pairs");
           if (status.ok() && *demanded > 2 * most + 16)
-            return Status(fault("it demands room for " + std::to_string(*demanded) + " pairs of " +
+            return Status(fault("it claims to have " + std::to_string(*demanded) + " pairs of " +
                                 std::to_string(given_.count()) + " boxes"));
           return status;
         });
@@ -78,7 +78,7 @@ class PluginBroadPhase final : public core::BroadPhase {
     for (std::size_t k = 0; k < read.values.size(); ++k) {
       const core::Pair p = read.values[k];
       if (p.i == ~0U && p.j == ~0U)
-        return fault("it says " + std::to_string(read.demanded) + " pairs, and did not write number " +
+        return fault("it reports " + std::to_string(read.demanded) + " pairs, but did not write number " +
                      std::to_string(k));
       if (p.i >= p.j || p.j >= given_.count())
         return fault("pair number " + std::to_string(k) + " is (" + std::to_string(p.i) + ", " + std::to_string(p.j) +

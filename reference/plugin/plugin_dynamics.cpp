@@ -95,12 +95,12 @@ class PluginDynamics final : public core::Dynamics {
               instance_->checked(table().read_contacts(instance_->self(), out, room, demanded), "read_contacts");
           // More than 4 GiB of contacts is treated as a wrong count.
           if (status.ok() && *demanded > (std::uint64_t{1} << 32) / sizeof(broadside_contact))
-            return fault("it demands room for " + std::to_string(*demanded) + " contacts");
+            return fault("it claims to have " + std::to_string(*demanded) + " contacts");
           return status;
         });
     if (!read) return read.error();
     if (read.value().values.size() != read.value().demanded)
-      return fault("it has " + std::to_string(read.value().demanded) + " contacts now, and had " +
+      return fault("it has " + std::to_string(read.value().demanded) + " contacts now, but had " +
                    std::to_string(read.value().values.size()) + " a call before");
     contact_room_ = std::max<std::size_t>(contact_room_, read.value().values.size() * 5 / 4);
     for (const broadside_contact& c : read.value().values) {

@@ -111,18 +111,18 @@ class PluginDynamics2 final : public core::Dynamics, public core::OwnStepTime {
       Status status = instance_->checked(read(instance_->self(), out, room, demanded), call);
       // More than 4 GiB is treated as a wrong count.
       if (status.ok() && *demanded > (std::uint64_t{1} << 32) / sizeof(Row))
-        return fault(call, "it demands room for " + std::to_string(*demanded) + " rows");
+        return fault(call, "it claims to have " + std::to_string(*demanded) + " rows");
       return status;
     });
     if (!got) return got.error();
     std::vector<Row>& rows = got.value().values;
     if (rows.size() != got.value().demanded)
-      return fault(call, "it has " + std::to_string(got.value().demanded) + " rows now, and had " +
+      return fault(call, "it has " + std::to_string(got.value().demanded) + " rows now, but had " +
                              std::to_string(rows.size()) + " a call before");
     for (std::size_t k = 0; k < rows.size(); ++k)
       if (is_unwritten(rows[k]))
-        return fault(call,
-                     "it says " + std::to_string(rows.size()) + " rows, and did not write number " + std::to_string(k));
+        return fault(
+            call, "it reports " + std::to_string(rows.size()) + " rows, but did not write number " + std::to_string(k));
     room_before = std::max(room_before, rows.size() * 5 / 4);
     return std::move(rows);
   }

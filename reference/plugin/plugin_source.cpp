@@ -53,9 +53,10 @@ std::string fault_of_either(const Table& e) {
   for (std::uint32_t k = 0; k < e.setting_count; ++k)
     if (!is_good_key(e.settings[k].key) || e.settings[k].what == nullptr)
       return "setting " + std::to_string(k) + " has no key of a-z, 0-9 and _, or no text";
-  if (!is_whole(e.load_boxes, e.update_boxes, e.find_pairs, e.read_pairs)) return "half a broad phase";
-  if (!is_whole(e.load_scene, e.measure, e.read_separations)) return "half a narrow phase";
-  if (!is_whole(e.begin, e.step, e.read_states)) return "half a dynamics engine";
+  if (!is_whole(e.load_boxes, e.update_boxes, e.find_pairs, e.read_pairs))
+    return "it has only some functions of a broad phase";
+  if (!is_whole(e.load_scene, e.measure, e.read_separations)) return "it has only some functions of a narrow phase";
+  if (!is_whole(e.begin, e.step, e.read_states)) return "it has only some functions of a dynamics engine";
   if (e.find_pairs == nullptr && e.measure == nullptr && e.step == nullptr) return "it offers nothing";
   return {};
 }
@@ -77,7 +78,7 @@ core::Result<std::string> value_of(const broadside_engine2& e, const broadside_d
   for (std::uint32_t k = 0; k < e.setting_count; ++k)
     if (key == e.settings[k].key)
       return std::to_string(settings != nullptr ? settings->number(key) : e.settings[k].default_value);
-  return Error{"it declares '" + std::string(one.key) + "' by the setting '" + key + "', which it has not", where,
+  return Error{"it declares '" + std::string(one.key) + "' by the setting '" + key + "', which it does not have", where,
                "name one of its settings"};
 }
 
@@ -86,13 +87,13 @@ std::string fault_of_contacts(const broadside_engine2& e) {
   const std::string_view contacts = declared(e, "contacts");
   const bool declares_points = contacts == "totals" || contacts == "geometry";
   if (e.read_points != nullptr && !declares_points)
-    return "it has read_points and does not declare contacts = totals, or geometry where it knows no impulses";
+    return "it has read_points but does not declare contacts = totals, or geometry where it knows no impulses";
   if (e.read_contacts != nullptr && contacts != "applications")
-    return "it has read_contacts and does not declare contacts = applications";
+    return "it has read_contacts but does not declare contacts = applications";
   if (declares_points && e.read_points == nullptr)
-    return "it declares contacts = " + std::string(contacts) + " and has no read_points";
+    return "it declares contacts = " + std::string(contacts) + " but has no read_points";
   if (contacts == "applications" && e.read_contacts == nullptr)
-    return "it declares contacts = applications and has no read_contacts";
+    return "it declares contacts = applications but has no read_contacts";
   return {};
 }
 
@@ -122,7 +123,7 @@ std::string fault_of(const broadside_engine2& e) {
   if (!std::isfinite(e.margin_m) || e.margin_m < 0.0) return "margin_m is not a finite number of 0 or more";
   const bool has_more = e.read_points != nullptr || e.read_contacts != nullptr || e.read_detection != nullptr ||
                         e.read_step_pairs != nullptr;
-  if (has_more && e.step == nullptr) return "it reads points, contacts, detection or pairs of a step and has no step";
+  if (has_more && e.step == nullptr) return "it reads points, contacts, detection or pairs of a step but has no step";
   if (e.read_step_pairs != nullptr && e.read_detection == nullptr)
     return "it has read_step_pairs and no read_detection, whose boxes say which pairs are due";
   return fault_of_contacts(e);
@@ -176,7 +177,7 @@ core::Status PluginInstance::checked(int returned, std::string_view stage) const
   if (returned == BROADSIDE_OK) return core::Done{};
   const char* why = table().last_error(self_);
   return Error{why != nullptr && *why != '\0' ? core::shown_text(why)
-                                              : "failed without a word (" + std::to_string(returned) + ")",
+                                              : "failed without a message (" + std::to_string(returned) + ")",
                where(stage), "", Exit::kMissing};
 }
 

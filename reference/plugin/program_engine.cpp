@@ -46,7 +46,7 @@ class ProgramEngine {
     if (!head.value().is_failure) return answer;
     core::MessageReader reader(answer);
     const std::string why = core::shown_text(reader.text(core::kMostTextBytes));
-    return Error{why.empty() ? "it failed without a word" : why, "", "", Exit::kMissing};
+    return Error{why.empty() ? "it failed without a message" : why, "", "", Exit::kMissing};
   }
 
   // Makes a call of the table.
@@ -228,7 +228,7 @@ class ProgramSource final : public PluginSource {
       auto again = started(words_);
       if (!again) return at("create", again.error());
       if (again.value().hello != hello_)
-        return at("create", {"it says another thing of itself at its second start", "", "", Exit::kMissing});
+        return at("create", {"it describes itself differently at its second start", "", "", Exit::kMissing});
       engine = std::move(again.value().engine);
     }
     MessageWriter message;

@@ -66,7 +66,7 @@ std::span<const RigidMutant> flight_table() {
               for_moving(w, [&](RigidBody& b) { b.v = b.v + (h * b.inverse_mass) * gravity_of(w); });
             }}},
       {"linear-damping",
-       "velocities lose 0.1 % a step, which nobody asked for",
+       "velocities lose 0.1 % a step, although the scene has no damping",
        "ballistic",
        "rigid-mixed",
        {.accelerate =
@@ -180,7 +180,7 @@ std::span<const RigidMutant> flight_table() {
        "rigid-mixed",
        {.turn = [](StagedWorld& w, RigidBody& b, double h) { w.sound_turn(b, 1.02 * h); }}},
       {"no-gyroscopic-term",
-       "the angular velocity stays, not the angular momentum",
+       "the angular velocity is conserved, not the angular momentum",
        "gyroscopic",
        "rigid-mixed",
        {.turn =
@@ -211,7 +211,7 @@ std::span<const RigidMutant> flight_table() {
               b.angular_momentum = (1.0 + 0.01 * h) * b.angular_momentum;
             }}},
       {"angular-damping",
-       "spins lose 1 % a second, which nobody asked for",
+       "spins lose 1 % a second, although the scene has no damping",
        "gyroscopic",
        "rigid-mixed",
        {.turn =

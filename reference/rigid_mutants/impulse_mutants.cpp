@@ -77,7 +77,7 @@ std::span<const RigidMutant> impulse_table() {
                 w.bodies_[i].v = w.bodies_[i].v + (w.bodies_[i].v - before[i].v);
             }}},
       {"invents-momentum",
-       "who touches gains 1 mm/s upward",
+       "bodies that touch gain 1 mm/s upward",
        "momentum",
        "rigid-mixed",
        {.solve_contacts =
@@ -87,7 +87,7 @@ std::span<const RigidMutant> impulse_table() {
               });
             }}},
       {"loses-momentum",
-       "who touches loses a thousandth of its velocity",
+       "bodies that touch lose a thousandth of their velocity",
        "momentum",
        "rigid-mixed",
        {.solve_contacts =
@@ -118,7 +118,7 @@ std::span<const RigidMutant> impulse_table() {
                 w.bodies_[i].angular_momentum = before[i].angular_momentum;
             }}},
       {"torque-from-nowhere",
-       "who touches gains angular momentum about the vertical",
+       "bodies that touch gain angular momentum about the vertical",
        "angular-momentum",
        "rigid-mixed",
        {.solve_contacts =
@@ -177,7 +177,7 @@ std::span<const RigidMutant> impulse_table() {
               with_surface(w, h, [](core::Material& m) { m.mu_static = m.mu_kinetic = 0.0F; });
             }}},
       {"friction-reversed",
-       "friction drives what slides",
+       "friction pushes sliding bodies along",
        "friction-cone",
        "rigid-mixed",
        {.solve_contacts =
@@ -204,7 +204,7 @@ std::span<const RigidMutant> impulse_table() {
               solve_and(w, h, [&w](SolverPoint& p) { push(w, p, 0.41 * tangent_part(p)); });
             }}},
       {"contacts-pull",
-       "contacts hold on to what leaves",
+       "contacts pull on bodies that separate",
        "friction-cone",
        "rigid-mixed",
        {.solve_contacts =
@@ -247,7 +247,7 @@ std::span<const RigidMutant> impulse_table() {
        {.find_points = [](StagedWorld& w,
                           double h) { with_surface(w, h, [](core::Material& m) { m.restitution *= 0.5F; }); }}},
       {"runs-that-differ",
-       "what is summed depends on the run",
+       "sums depend on the run",
        "determinism",
        "rigid-mixed",
        {.accelerate =

@@ -137,7 +137,7 @@ constexpr Row kRows[] = {
             });
           }}},
     {"twin: patches-that-stay",
-     "a patch stays as it was first made, while it is one",
+     "a patch is never updated after it was made",
      "contact-truth",
      "rigid-overlap",
      {.touch_faces =
@@ -161,7 +161,7 @@ constexpr Row kRows[] = {
             p.confirmed_ = sound;
           }}},
     {"twin: sees-what-touches-alone",
-     "contacts are not looked for ahead",
+     "bodies that do not touch yet get no contacts",
      "passage",
      "rigid-fast",
      {.touch_faces =
@@ -268,7 +268,7 @@ constexpr Row kRows[] = {
      {.respond = [](StagedPipeline& p,
                     float h) { respond_with_materials(p, h, [](core::Material& m) { m.restitution = 1.2F; }); }}},
     {"twin: creeps",
-     "what rests creeps by 1 mm/s",
+     "bodies at rest creep by 1 mm/s",
      "rest",
      "rigid-stack",
      {.respond =
@@ -294,7 +294,7 @@ constexpr Row kRows[] = {
             f.detected_position.assign(f.position.size(), {0, -3, 0});
           }}},
     {"twin: differs-from-run-to-run",
-     "a last bit depends on the run",
+     "the last bit of a result depends on the run",
      "determinism",
      "rigid-mixed",
      {.respond =

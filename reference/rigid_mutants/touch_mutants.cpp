@@ -58,13 +58,13 @@ std::span<const RigidMutant> touch_table() {
               w.bodies_[3].x.y = static_cast<double>(w.scene().domain.min.y) - 3.0;
             }}},
       {"tunnels",
-       "bodies that are apart at the start of a step do not see each other in it",
+       "bodies that are apart at the start of a step get no contact in it",
        "passage",
        "rigid-fast",
        {.find_points = [](StagedWorld& w,
                           double h) { lose_points(w, h, [](const SolverPoint& p) { return p.at.gap > 0.0; }); }}},
       {"turns-a-plate-through",
-       "what only turns is not looked at while it turns",
+       "a body that only turns is not checked for contacts while it turns",
        "passage",
        "rigid-blade",
        {.find_points = [](StagedWorld& w,
@@ -137,7 +137,7 @@ std::span<const RigidMutant> touch_table() {
                 if (!w.bodies_[i].is_static()) w.bodies_[i].x.x += 1e-3 * h;
             }}},
       {"sinks",
-       "what stands sinks by 2 mm/s",
+       "standing bodies sink by 2 mm/s",
        "rest",
        "rigid-stack",
        {.move =

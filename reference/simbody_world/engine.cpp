@@ -22,9 +22,13 @@ std::span<const core::SettingRow> setting_rows() {
       {"tuning",
        "accurate",
        {"accurate", "shipped"},
-       "shipped: accuracy 1e-3 and slip below 1 cm/s, as Simbody ships, whatever the next two say"},
-      {"accuracy_digits", "8", {}, "of its error-controlled Runge-Kutta-Merson integrator: 8 is 1e-8; Simbody ships 3"},
-      {"stiffness_kpa", "10000", {}, "of every surface, kPa; 10000 is rubber"},
+       "shipped: accuracy 1e-3 and slip below 1 cm/s, as Simbody ships, whatever accuracy_digits and "
+       "slip_speed_um_s say"},
+      {"accuracy_digits",
+       "8",
+       {},
+       "accuracy of the error-controlled Runge-Kutta-Merson integrator: 8 is 1e-8; Simbody ships 3"},
+      {"stiffness_kpa", "10000", {}, "stiffness of every surface, kPa; 10000 is rubber"},
       {"slip_speed_um_s", "1000", {}, "micrometers/s below which friction fades; Simbody ships 10000"},
   }};
   return kSettings;

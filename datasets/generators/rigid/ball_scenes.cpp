@@ -62,7 +62,7 @@ Scene bounce() {
 }
 
 constexpr std::array<SmallSceneRow, 6> kBallRows{{
-    {"rigid:sphere:slip-to-roll", "a ball starts to slip and rolls from 2 v0 / (7 mu g) on at 5/7 v0", slip_to_roll},
+    {"rigid:sphere:slip-to-roll", "a ball slips at first, then rolls from 2 v0 / (7 mu g) on, at 5/7 v0", slip_to_roll},
     {"rigid:sphere:roll-incline", "a ball on a plane, mu 1 % above 2/7 tan(theta): 5/7 g sin(theta)", rolls},
     {"rigid:sphere:slip-incline", "a ball on a plane, mu 1 % below 2/7 tan(theta): g (sin - mu cos)", slips},
     {"rigid:sphere:oblique-rolls", "an oblique bounce, mu 1 % above 2/7 v_t / ((1 + e) v_n): J_t = 2/7 m v_t",

@@ -61,9 +61,9 @@ Scene three_balls() {
 
 constexpr std::array<SmallSceneRow, 4> kImpactRows{{
     {"rigid:rod:end-impact", "a slanted rod meets the floor: J = (1 + e) m v / (1 + 3 cos^2 phi)", rod},
-    {"rigid:billiards:central", "two equal elastic balls head on: they change velocities", central},
+    {"rigid:billiards:central", "two equal elastic balls head on: they exchange velocities", central},
     {"rigid:billiards:off-center", "two equal elastic balls off center: they part at a right angle", off_center},
-    {"rigid:billiards:three", "a ball onto two that touch: it goes back with a fifth", three_balls},
+    {"rigid:billiards:three", "a ball hits two that touch: it bounces back at a fifth of its speed", three_balls},
 }};
 
 }  // namespace

@@ -99,7 +99,7 @@ constexpr std::array<SmallSceneRow, 24> kSlopeRows{{
     {"rigid:tip:push-tips", "a tall box pushed 1 % harder than m g b / h: it tips", tips},
     {"rigid:tip:push-stands", "a tall box pushed 1 % less than m g b / h: it stands", does_not_tip},
     {"rigid:tip:push-slides", "a tall box pushed where mu < b / h: it slides upright", slides_first},
-    {"rigid:ladder", "a ladder on a smooth wall and floor: leaves the wall at two thirds of its sine", ladder},
+    {"rigid:ladder", "a ladder on a smooth wall and floor: leaves the wall at 2/3 of its starting sine", ladder},
     {"rigid:slide:heading-0", "a box slides v0^2 / (2 mu g) along x", slide_heading<0>},
     {"rigid:slide:heading-1", "the same at 1/16 of the circle", slide_heading<1>},
     {"rigid:slide:heading-2", "the same at 2/16 of the circle", slide_heading<2>},

@@ -127,15 +127,18 @@ constexpr std::array<SmallSceneRow, 11> kStructureRows{{
     {"rigid:stack:5", "five cubes stand for a minute", stack_5},
     {"rigid:stack:20", "twenty cubes stand for a minute", stack_20},
     {"rigid:stack:1000-on-1", "1000 kg on 1 kg stands for a minute", heavy_on_light},
-    {"rigid:card-tent:stands", "two cards lean on each other, mu 1 % above what statics asks for", tent_stands},
+    {"rigid:card-tent:stands", "two cards lean on each other, mu 1 % above what statics needs", tent_stands},
     {"rigid:card-tent:falls", "two cards lean on each other, mu 1 % below that: they slide apart", tent_falls},
     {"rigid:overhang:stands", "five books over a table's edge, 1 % less than L/2 (1 + 1/2 + 1/3 + 1/4 + 1/5)",
      overhang_stands},
     {"rigid:overhang:falls", "five books over a table's edge, 1 % more than that", overhang_falls},
-    {"rigid:arch:7-stands", "a semicircular arch of 7 stones, 1 % thicker than the least", arch_7_stands},
-    {"rigid:arch:7-falls", "a semicircular arch of 7 stones, 1 % thinner than that", arch_7_falls},
-    {"rigid:arch:25-stands", "a semicircular arch of 25 stones, 1 % thicker than the least", arch_25_stands},
-    {"rigid:arch:25-falls", "a semicircular arch of 25 stones, 1 % thinner than that", arch_25_falls},
+    {"rigid:arch:7-stands", "a semicircular arch of 7 stones, 1 % thicker than the thinnest that stands",
+     arch_7_stands},
+    {"rigid:arch:7-falls", "a semicircular arch of 7 stones, 1 % thinner than the thinnest that stands", arch_7_falls},
+    {"rigid:arch:25-stands", "a semicircular arch of 25 stones, 1 % thicker than the thinnest that stands",
+     arch_25_stands},
+    {"rigid:arch:25-falls", "a semicircular arch of 25 stones, 1 % thinner than the thinnest that stands",
+     arch_25_falls},
 }};
 
 }  // namespace

@@ -21,7 +21,7 @@ core::EquivalenceCard rigid_card(const core::Scene& scene, const core::SoftSetti
                                         "as the compiler made it; octree joins use AVX2 where it is", threads);
   card.push_back({"shape margin", "none", ""});
   card.push_back({"contact margin", "none: a gap may close within the step, no more", ""});
-  card.push_back({"broad-phase margin", "how far bodies may come in the step", ""});
+  card.push_back({"broad-phase margin", "how far bodies may move in the step", ""});
   card.push_back({"friction rule", "geometric mean", ""});
   card.push_back({"restitution rule", "the larger", ""});
   const float ratio = core::largest_mass_ratio(scene);

@@ -57,10 +57,10 @@ TEST(ProgramRun, WhatIsNoEngineIsBadInputInOneLine) {
     EXPECT_NE(line.find(words), std::string::npos) << line;
   };
   says(wrong("prints-first"), "its answer begins with the bytes 'Hell");
-  says(wrong("prints-first"), "standard output carries the protocol alone");
+  says(wrong("prints-first"), "write only the protocol to standard output");
   says(wrong("says-nothing"), "the program ended with exit code 7 instead of answering");
   says(wrong("hello-ends-early"), "ended with exit code 0 after 12 of ");
-  says(wrong("hello-goes-on"), "its answer to hello goes on for 5 bytes");
+  says(wrong("hello-goes-on"), "its answer to hello is too long by 5 bytes");
   says(wrong("hello-has-no-end"), "ends in the middle of a value");
   says(wrong("hello-of-version-9"), "it speaks version 9 of the protocol");
   says(wrong("declares-unknown-word"), "'friction' cannot be declared as 'con'; did you mean 'cone'?");

@@ -122,8 +122,8 @@ TEST_F(Hostile, NodesThatShareChildren) {
 }
 
 TEST_F(Hostile, NodesWithinThemselves) {
-  expect_refused({.nodes = R"([{"children":[1]},{"children":[0],"mesh":0}])"}, "within itself");
-  expect_refused({.nodes = R"([{"children":[0],"mesh":0}])"}, "within itself");
+  expect_refused({.nodes = R"([{"children":[1]},{"children":[0],"mesh":0}])"}, "its own ancestor");
+  expect_refused({.nodes = R"([{"children":[0],"mesh":0}])"}, "its own ancestor");
 }
 
 // One parser takes the first of two equal keys and another the last: what is read must be what was checked.

@@ -75,7 +75,7 @@ TEST(ProgramProtocol, AHelloCutAnywhereOrLongerIsRefusedInOneLine) {
     EXPECT_NE(line, "accepted") << size;
     EXPECT_EQ(line.find('\n'), std::string::npos);
   }
-  EXPECT_NE(refusal(good + "x").find("goes on for 1 bytes"), std::string::npos);
+  EXPECT_NE(refusal(good + "x").find("is too long by 1 bytes"), std::string::npos);
   std::string of_nine = good;
   of_nine[8] = 9;
   EXPECT_NE(refusal(of_nine).find("it speaks version 9"), std::string::npos);

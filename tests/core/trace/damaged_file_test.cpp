@@ -106,7 +106,7 @@ TEST_F(DamagedFile, WhoseSuperblockIsSpoiled) {
 
 TEST_F(DamagedFile, ThatIsHdf5ButNoTrace) {
   raw_remove_attribute(path_, "/", "format");
-  expect_fault({"/@format", "no Broadside trace"});
+  expect_fault({"/@format", "not a Broadside trace"});
 }
 
 TEST_F(DamagedFile, OfAnotherFormatVersion) {

@@ -57,7 +57,7 @@ TEST(BoxKind, OfPointsAtOnePlaceAndOfNoBoxes) {
   const BoxKind points = kind_of(std::vector<Box>(100, Box{{1, 2, 3}, {1, 2, 3}}));
   EXPECT_EQ(points.size_ratio(), 1.0);
   EXPECT_EQ(points.cells_of_half, 1.0);
-  EXPECT_NE(words_of(points, 49.5).find("half of them in 100 % of"), std::string::npos) << words_of(points, 49.5);
+  EXPECT_NE(words_of(points, 49.5).find("half of all boxes in 100 % of"), std::string::npos) << words_of(points, 49.5);
   EXPECT_EQ(points.thin_share, 0.0);
   EXPECT_EQ(kind_of({}).boxes, 0U);
   const std::vector<Box> one_point{{{0, 0, 0}, {0, 0, 0}}, {{1, 1, 1}, {2, 2, 2}}};

@@ -135,7 +135,7 @@ TEST(DeviceBoxesOnHost, AreNotForTheSpatialHash) {
   const std::vector<Box> boxes = boxes_of(20, 3.0F, 7);
   const core::Status refused = finder.load_on_device(lying(boxes), some_static(20));
   ASSERT_FALSE(refused.ok());
-  EXPECT_EQ(refused.error().what, "it takes boxes from the host alone");
+  EXPECT_EQ(refused.error().what, "it takes boxes only from the host");
 }
 
 TEST(OrderedBits, FollowTheOrderOfFloats) {

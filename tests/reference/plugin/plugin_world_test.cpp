@@ -51,9 +51,9 @@ TEST(PluginWorld, EachLieIsOneClearLine) {
     EXPECT_NE(line.find(words), std::string::npos) << fault << ": " << line;
   };
   says(0, "sound");
-  says(1, "read_points: it demands room for 1152921504606846976 rows");
-  says(2, "read_points: it says 1 rows, and did not write number 0");
-  says(3, "read_points: it has 258 rows now, and had 257 a call before");
+  says(1, "read_points: it claims to have 1152921504606846976 rows");
+  says(2, "read_points: it reports 1 rows, but did not write number 0");
+  says(3, "read_points: it has 258 rows now, but had 257 a call before");
   says(4, "point number 0 has an impulse that is NaN or infinite");
   says(5, "point number 0 is between 0 and 3, and there are 3 bodies");
   says(6, "point number 0 is between 0 and 0");
@@ -111,12 +111,12 @@ TEST(PluginWorld, TablesOfOtherHeadersAreRefusedOrRead) {
   EXPECT_NE(described("unknown_word").find("'friction' cannot be declared as 'con'; did you mean 'cone'?"),
             std::string::npos);
   EXPECT_NE(described("unknown_key").find("a declaration has no key 'frictoin'"), std::string::npos);
-  EXPECT_NE(described("unknown_setting").find("'substeps' by the setting 'sweeps', which it has not"),
+  EXPECT_NE(described("unknown_setting").find("'substeps' by the setting 'sweeps', which it does not have"),
             std::string::npos);
   EXPECT_NE(described("declared_twice").find("it declares 'order' twice"), std::string::npos);
-  EXPECT_NE(described("no_points").find("declares contacts = totals and has no read_points"), std::string::npos);
+  EXPECT_NE(described("no_points").find("declares contacts = totals but has no read_points"), std::string::npos);
   EXPECT_NE(described("no_text").find("build or what is not one line"), std::string::npos);
-  EXPECT_NE(described("half_world").find("half a dynamics engine"), std::string::npos);
+  EXPECT_NE(described("half_world").find("only some functions of a dynamics engine"), std::string::npos);
 }
 
 // A library of version 1 declares nothing: the laws of METHOD are applied to it, as before there were declarations.
