@@ -117,7 +117,8 @@ class ContactSet final : public Validator {
   void judge_colors() {
     for (const Contact& c : frame_->contacts)
       if (!core::is_face(c.b))
-        tally_.require(c.color < touching_.size(), "core/method/coloring.hpp: fewer colors before it than pairs touch",
+        tally_.require(c.color < touching_.size(),
+                       "core/method/coloring.hpp: a color is below the number of touching pairs",
                        Where::pair(frame_->step, c.a, c.b, "contact.color"));
   }
 

@@ -15,9 +15,9 @@ struct SolveTeamChoice {
   std::uint32_t blocks = 1;
 };
 
-// Enough blocks for two threads a body. A heap has about as many patches, so most patches have a thread of their own,
-// which loads its patch before the bodies are ready. A cluster has the fastest barrier; where it has too few threads, a
-// grid is faster.
+// Enough blocks for two threads a body. A heap of cubes has fewer patches than that, so most patches have a thread of
+// their own, which loads its patch before the bodies are ready. A cluster has the fastest barrier; where it has too few
+// threads, a grid is faster.
 inline SolveTeamChoice choose_solve_team(const SolveShape& shape, std::uint32_t body_count, bool may_cluster) {
   constexpr std::uint64_t kThreadsOfBody = 2;
   const std::uint64_t threads = shape.grid.threads;

@@ -49,7 +49,7 @@ core::Status SweepStage::find_pairs(SweptView& view) {
 
 core::Status SweepStage::stop_short(const ContactView& frame, core::RigidState* after, StreamHandle stream) {
   BROADSIDE_TRY(counts_.fill_bytes(0));
-  BROADSIDE_TRY(wait_for_device("clearing counters of ways"));
+  BROADSIDE_TRY(wait_for_device("clearing the counters of fast bodies"));
   SweptView view;
   view.bodies = frame;
   view.after = after;
@@ -60,7 +60,7 @@ core::Status SweepStage::stop_short(const ContactView& frame, core::RigidState* 
   view.is_changed = is_changed_.data();
   view.counts = counts_.data();
   BROADSIDE_TRY(launch_ways(view, stream));
-  BROADSIDE_TRY(wait_for_stream(stream, "the ways of bodies"));
+  BROADSIDE_TRY(wait_for_stream(stream, "following fast bodies"));
   const auto ways = counts();
   if (!ways.ok()) return ways.error();
   if (!(2.0F * std::bit_cast<float>(ways.value().longest) > core::swept_depth_m(thinnest_m_))) return core::Done{};

@@ -28,7 +28,7 @@ core::EquivalenceCard card_of(const core::Scene& scene, const plain::WorldOption
   card.push_back({"contact margin", "none: a gap may close within the step, no more", ""});
   card.push_back({"broad-phase margin", "how far bodies may move in the step", ""});
   card.push_back({"friction rule", "geometric mean", ""});
-  card.push_back({"restitution rule", "the larger, before gravity acts", ""});
+  card.push_back({"restitution rule", "the larger of both, applied before gravity acts", ""});
   card.push_back({"contact solver", "projected Gauss-Seidel along conjugate directions, from the step before",
                   "one application a contact"});
   card.push_back(

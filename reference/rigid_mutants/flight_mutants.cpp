@@ -151,7 +151,7 @@ std::span<const RigidMutant> flight_table() {
        "rigid-mixed",
        {.turn = [](StagedWorld& w, RigidBody& b, double h) { w.sound_turn(b, 0.5 * h); }}},
       {"turns-backward",
-       "q against w",
+       "orientations turn against the angular velocity",
        "turning",
        "rigid-mixed",
        {.turn = [](StagedWorld& w, RigidBody& b, double h) { w.sound_turn(b, -h); }}},

@@ -136,8 +136,8 @@ class EnergyGrowth final : public Validator {
   }
 
   static constexpr std::string_view kOrigin =
-      "1/2 m g^2 h^2 a body; m g h v where it was thrown up; what a declared correction lifts; twice the declared "
-      "accuracy; and rounding";
+      "1/2 m g^2 h^2 for each body; m g h v for one that leaves a contact upward at v; what a declared correction may "
+      "lift; twice the declared accuracy; and rounding";
   static constexpr std::string_view kStored =
       "compliant contacts: the largest energy before, and the sum of the steps' limits";
   const core::TraceHeader& header_;

@@ -185,8 +185,8 @@ class Passage final : public Validator {
   static constexpr std::string_view kOrigin =
       "half of the smaller body's smallest side, beyond the depth at the ends: certified by conservative advancement";
   static constexpr std::string_view kOriginOfVertices =
-      "a quarter of the convex body's smallest side, half of how deep a vertex can be in it, beyond the depth at the "
-      "ends: certified by conservative advancement";
+      "a quarter of the convex body's smallest side, which is half of the depth that a vertex can have in it, beyond "
+      "the depth at the ends: certified by conservative advancement";
   const core::Scene& scene_;
   ExactShapes shapes_;
   MeshPassage meshes_;

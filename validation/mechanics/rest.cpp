@@ -54,7 +54,8 @@ class Rest final : public Validator {
 
  private:
   static constexpr std::string_view kOrigin =
-      "1 % of the smallest side (5 % where contacts are compliant), slop a body, and as much again a minute";
+      "1 % of the smallest side (5 % where contacts are compliant) and one slop for each body; as much again for each "
+      "minute";
   static constexpr std::string_view kCreep = "1 % of the smallest side a minute (5 % where contacts are compliant)";
   double share_;
   double slop_m_;

@@ -85,7 +85,7 @@ class Turning final : public Validator {
 ValidatorRow turning_row() {
   return {"turning",
           "a body that touches nothing turns by h times its angular velocity",
-          "orientation at half rate; a frozen orientation; q against w",
+          "orientation at half rate; a frozen orientation; turning backward",
           core::bit(core::Group::kBodies),
           0,
           [](const Subject& subject) { return lacking(subject.header, core::bit(core::Group::kBodies)); },

@@ -140,8 +140,8 @@ class Unilateral final : public Validator {
   }
 
   static constexpr std::string_view kOrigin =
-      "the declared margin, h times the approach speed with gravity, wrenches and turning, what an arc is off its "
-      "tangent, and rounding; with substeps also what other impulses of the step drive";
+      "the declared margin, h times the approach speed with gravity, wrenches and turning, the distance of an arc from "
+      "its tangent, and rounding; with substeps also the approach that other impulses of the step may cause";
   const core::TraceHeader& header_;
   const core::Scene& scene_;
   double margin_m_;

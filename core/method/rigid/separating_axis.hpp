@@ -28,9 +28,9 @@ struct SeparatingAxis {
   int ends_of_b[2] = {};
 };
 
-// Edges whose directions cross at less than this angle (16 roundings) are left out, because their cross product is
-// rounding alone. That costs a gap at most 16 roundings of the size of the bodies: the direction that both edges share
-// is, but for that angle, across faces of both bodies.
+// Pairs of edges at less than this angle (16 roundings) are left out, because their cross product consists of rounding.
+// If a direction across two parallel edges separates the bodies, the normal of a face does, too. So with edges that are
+// parallel to within this angle a gap is off by at most 16 roundings of the size of the bodies.
 inline constexpr float kParallelSine = 16.0F * 0x1p-24F;
 
 // Of two boxes: all fifteen axes (Gottschalk, Lin and Manocha, OBBTree, 1996). Unlike there, each gap is taken along

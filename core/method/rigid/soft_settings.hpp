@@ -236,7 +236,8 @@ inline MostOfStep most_of_step(const SoftSettings& settings, float largest_mass_
 // dt_s: of the step, or of its part.
 inline SoftStep soft_step_of(const SoftSettings& settings, Vec3 gravity_m_s2, float dt_s, const SolveNumbers& numbers) {
   constexpr float kSettleShare = 0.05F;
-  // A push that stays as speed leaves a sixteenth of what explicit and implicit Euler differ by in a step.
+  // The energy of a push that is kept as speed, m (g h / 4)^2 / 2, is then at most a sixteenth of m g^2 h^2 / 2, by
+  // which explicit and implicit Euler differ in a step.
   constexpr float kSmallPushShare = 0.25F;
   const float gravity = length(gravity_m_s2);
   SoftStep step = soft_step(dt_s / static_cast<float>(numbers.substeps), numbers.omega_dt, settings.damping);

@@ -40,10 +40,10 @@ BROADSIDE_HD int lowest_of(const HullPolytopeOf<Lanes>& p, Vec3 direction) {
 }
 
 // The face through which the line through x along `up` leaves the body on its way up; -1: the line misses the body. The
-// search begins at face `from` and crosses the sides that the line passes. Seen along `up` each crossing leads to where
-// the body is less high, so no face comes twice. A line that is beside a face by no more than rounding_m counts as over
-// it. -1 too where x is higher than most_m over the body: it is no higher over the body than over the plane of any face
-// that looks up.
+// search begins at face `from`, and goes on to the neighbor across a side beyond which the line is. The line meets each
+// next plane lower than the one before, so no face comes twice. A line that is beside a face by no more than rounding_m
+// counts as over it. Also -1 where x is higher than most_m over the body. One plane shows that: x is at least as high
+// over the body as over the plane of any face that looks up.
 template <typename Lanes>
 BROADSIDE_HD_CALLED int face_below(const HullPolytopeOf<Lanes>& p, int from, Vec3 x, Vec3 up, float rounding_m,
                                    float most_m) {
