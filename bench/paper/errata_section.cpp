@@ -104,8 +104,8 @@ std::string e12() {
     text += fmt::format("{} {} {} prints {:.1f} % where its figures give {:.2f} %", text.empty() ? "" : ",",
                         t.text(r, "model"), t.text(r, "instances"), printed, change);
   }
-  return fmt::format("E12: of {} changes in P-Table 6, {} differ from its own figures:{}.", t.rows.size(), differing,
-                     text);
+  return fmt::format("E12: changes in P-Table 6 that disagree with its own figures: {} of {}:{}.", differing,
+                     t.rows.size(), text);
 }
 
 }  // namespace

@@ -58,7 +58,7 @@ void add_facts(Document& document, Rows rows, const PaperText& text) {
       ".");
   notes.items.push_back(
       "Domain, body scale, speeds and step are not published: those of these scenes are Broadside's own, so absolute "
-      "figures cannot match. Ratios put both machines and both scenes in one number; the orders are what compares.");
+      "figures cannot match. Ratios put both machines and both scenes in one number; only the orders can be compared.");
   if (!text.command.empty()) notes.items.push_back("Made with: " + text.command);
   document.blocks.emplace_back(std::move(notes));
 }
