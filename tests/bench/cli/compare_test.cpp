@@ -128,7 +128,7 @@ TEST(History, AppendsAndShows) {
   const std::string file = (folder / "history.sqlite").string();
   ASSERT_EQ(run_program({"run", "errata:E4", "--frames", "20", "--engine", "octree-cpu", "--out", out}).exit_code, 0);
   EXPECT_EQ(run_program({"history", file, "--add", out}).out.find(out + ": run 1, "), 0U);
-  EXPECT_NE(run_program({"history", file, "--add", out}).out.find("is run 1 already"), std::string::npos);
+  EXPECT_NE(run_program({"history", file, "--add", out}).out.find("is already run 1"), std::string::npos);
   const Ended shown = run_program({"history", file});
   EXPECT_EQ(shown.exit_code, 0);
   EXPECT_NE(shown.out.find("counter level stage: box tests: 1 run"), std::string::npos) << shown.out;
