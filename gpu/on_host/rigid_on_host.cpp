@@ -66,8 +66,9 @@ core::Status launch_constraints(const RigidFrameView& frame, const LaunchShape& 
 }
 
 core::Status launch_solve(const RigidFrameView& frame, std::uint32_t blocks, StreamHandle /*stream*/) {
-  on_host::run({{blocks}, {kSolveThreads}, on_host::order_seed()}, sizeof(SolveShared),
-               [&](unsigned char* shared) { run_solve(frame, *reinterpret_cast<SolveShared*>(shared)); });
+  on_host::run({{blocks}, {kSolveThreads}, on_host::order_seed()}, sizeof(SolveShared), [&](unsigned char* shared) {
+    run_solve(frame, frame.constraints, *reinterpret_cast<SolveShared*>(shared));
+  });
   return core::Done{};
 }
 

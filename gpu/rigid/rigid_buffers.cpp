@@ -216,7 +216,7 @@ void RigidBuffers::fill(RigidFrameView& view) const {
   view.color_cursor = color_cursor_.data();
   view.patch_at = patch_at_.data();
   view.place_capacity = patch_at_.capacity();
-  view.constraints = constraints_.data();
+  view.constraints.words = constraints_.data();
   view.changes = changes_.data();
   view.by_color = by_color_.data();
   view.bodies = bodies_.data();

@@ -85,6 +85,13 @@ struct RigidPipeline::Impl {
 
 namespace {
 
+template <typename Value>
+core::Status take(const core::Result<Value>& result, Value& into) {
+  if (!result.ok()) return result.error();
+  into = result.value();
+  return core::Done{};
+}
+
 // Cells of the broad phase are made for boxes this much larger than those seen so far, because boxes grow with the
 // speed of their bodies.
 constexpr float kRoomForSpeed = 1.25F;
@@ -178,21 +185,12 @@ core::Status RigidPipeline::load(const core::Scene& scene) {
   BROADSIDE_TRY(d.pairs.reserve(std::max<std::uint64_t>(1024, kPairsPerBody * n), "pairs"));
   d.view.has_long_contacts = has_hulls || some_are(core::ContactKind::kMesh);
   d.view.follows_ways = !d.bodies.is_swept.empty();
-  auto contact_shape = d.has_two_contact_launches() ? long_contact_launch_shape() : contact_launch_shape();
-  if (!contact_shape.ok()) return contact_shape.error();
-  d.contact_shape = contact_shape.value();
-  auto near_contact_shape = near_contact_launch_shape();
-  if (!near_contact_shape.ok()) return near_contact_shape.error();
-  d.near_contact_shape = near_contact_shape.value();
-  auto constraint_shape = constraint_launch_shape();
-  if (!constraint_shape.ok()) return constraint_shape.error();
-  d.constraint_shape = constraint_shape.value();
-  auto solve_shape = solve_launch_shape();
-  if (!solve_shape.ok()) return solve_shape.error();
-  d.solve_shape = solve_shape.value();
-  auto sleep_shape = sleep_launch_shape();
-  if (!sleep_shape.ok()) return sleep_shape.error();
-  d.sleep_shape = sleep_shape.value();
+  BROADSIDE_TRY(
+      take(d.has_two_contact_launches() ? long_contact_launch_shape() : contact_launch_shape(), d.contact_shape));
+  BROADSIDE_TRY(take(near_contact_launch_shape(), d.near_contact_shape));
+  BROADSIDE_TRY(take(constraint_launch_shape(), d.constraint_shape));
+  BROADSIDE_TRY(take(solve_launch_shape(), d.solve_shape));
+  BROADSIDE_TRY(take(sleep_launch_shape(), d.sleep_shape));
 
   if (d.view.follows_ways) BROADSIDE_TRY(d.sweep.load(d.bodies));
 
@@ -249,6 +247,7 @@ core::Status RigidPipeline::Impl::launch_all() {
   fill();
   const SolveTeamChoice solve = choose_solve_team(solve_shape, view.body_count, options.may_cluster);
   view.solve_team = solve.kind;
+  view.constraints.has_pairs = solve.kind == SolveTeamKind::kGrid && view.body_count >= options.least_for_pairs;
   BROADSIDE_TRY(launch_place(view, contact_shape, stream));
   // Cells are chosen from boxes of earlier frames. At the first frame there are none, and with cells of size 0 a box
   // would look for partners in billions of cells. So the broad phase is left out: the kernels after it find that the

@@ -13,6 +13,7 @@
 #include "core/method/rigid/rigid_settings.hpp"
 #include "core/scene/swept_bodies.hpp"
 #include "gpu/broad/broad_buffers.hpp"
+#include "gpu/stages/rigid/constraint_layout.hpp"
 
 namespace broadside::gpu {
 
@@ -26,6 +27,8 @@ struct RigidPipelineOptions {
   core::Swept swept = core::Swept::kFlagged;
   bool sleeps = false;      // islands that stand still stop being solved
   bool may_cluster = true;  // few contacts are solved by one cluster of blocks, where the GPU has them
+  // From how many bodies on the words of constraints lie in pairs, unless a cluster solves them.
+  std::uint32_t least_for_pairs = kLeastBodiesForPairs;
 };
 
 // Uses the current CUDA device; not thread-safe.

@@ -56,6 +56,12 @@ struct alignas(32) PackedStart {
   PackedVec3 driven_angular_momentum;
 };
 
+// Constraints in tiles (stages/rigid/constraint_layout.hpp). has_pairs: words lie in pairs.
+struct ConstraintMemory {
+  PackedVec3* words = nullptr;
+  bool has_pairs = false;
+};
+
 // Which barrier the solver's kernel uses: that of the whole grid, or that of a cluster, which is the fastest.
 enum class SolveTeamKind : std::uint8_t { kGrid, kCluster };
 
@@ -83,8 +89,8 @@ struct RigidFrameView : ContactView {
   std::uint32_t* color_cursor = nullptr;  // [colors]
   std::uint32_t* patch_at = nullptr;      // [places] kUncolored in a gap
   std::uint64_t place_capacity = 0;
-  PackedVec3* constraints = nullptr;  // constraint_tiles.cuh
-  float* changes = nullptr;           // [places] J, of the last sweep (core::squared_change)
+  ConstraintMemory constraints;
+  float* changes = nullptr;  // [places] J, of the last sweep (core::squared_change)
   // [2 * patches] For each moved body the places of its patches in the order of colors: 2 * place where the body is the
   // patch's A, 2 * place + 1 where it is B.
   std::uint32_t* by_color = nullptr;

@@ -39,7 +39,7 @@ __device__ __forceinline__ void relax_stirred(const SolveTeam& team, const Rigid
     return f.stirred[c.a] >= sweep || f.stirred[c.b] >= sweep;
   };
   each_visited_by_color(
-      team, f,
+      team,
       [&](const TileSlot& slot) {
         LoadedStirred loaded;
         LoadedPatch& p = loaded.of.patch;
@@ -112,7 +112,7 @@ __device__ __forceinline__ void sweep_bouncing(const SolveTeam& team, const Rigi
                                                float done, const TeamSums& sums) {
   float largest = 0.0F;
   each_visited_by_color(
-      team, f,
+      team,
       [&](const TileSlot& slot) {
         LoadedBounce loaded;
         core::PatchConstraint& c = loaded.c;

@@ -8,10 +8,8 @@
 
 #include <cstdint>
 
-#include "gpu/rigid/rigid_view.hpp"
 #include "gpu/stages/grid/device.cuh"
 #include "gpu/stages/grid/team.cuh"
-#include "gpu/stages/rigid/constraint_tiles.cuh"
 #include "gpu/stages/rigid/solve_team.cuh"
 
 namespace broadside::gpu {
@@ -41,7 +39,7 @@ Visits(bool, IsVisited, Pass, IsStale) -> Visits<IsVisited, Pass, IsStale>;
 // The turns of this thread in one color after the other. By whole warps.
 class ChosenTurns {
  public:
-  __device__ ChosenTurns(const SolveTeam& team, const RigidFrameView& f) : team_(team), f_(f) {}
+  __device__ explicit ChosenTurns(const SolveTeam& team) : team_(team) {}
 
   __device__ __forceinline__ void begin(std::uint32_t color) {
     scanned_ = team_.turn_in(color);
@@ -67,7 +65,7 @@ class ChosenTurns {
       for (std::uint32_t k = 0; k < kTogether; ++k) {
         place[k] = scanned_.place + k * team_.threads();
         has[k] = scanned_.color == color_ && place[k] < scanned_.end;
-        is_chosen[k] = visits.is_visited(TileSlot(f_.constraints, has[k] ? place[k] : 0)) && has[k];
+        is_chosen[k] = visits.is_visited(team_.slot(has[k] ? place[k] : 0)) && has[k];
       }
 #pragma unroll
       for (std::uint32_t k = 0; k < kTogether; ++k) {
@@ -100,7 +98,6 @@ class ChosenTurns {
   }
 
   const SolveTeam& team_;
-  const RigidFrameView& f_;
   ColorTurn scanned_;
   std::uint32_t color_ = 0;
   std::uint32_t count_ = 0;

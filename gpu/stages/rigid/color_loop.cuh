@@ -57,7 +57,7 @@ __device__ __forceinline__ void each_body_in_turn(const SolveTeam& team, const R
 template <typename Work>
 __device__ __forceinline__ void each_place(const SolveTeam& team, const RigidFrameView& f, const Work& work) {
   for (std::uint64_t place = team.spread_rank(); place < f.counts->places; place += team.size())
-    if (f.patch_at[place] != kUncolored) work(TileSlot(f.constraints, place), place);
+    if (f.patch_at[place] != kUncolored) work(team.slot(place), place);
 }
 
 // What a thread waits for before it goes on with the next color, in sweeps with barriers.
@@ -78,13 +78,13 @@ template <typename Load, typename Placed, typename Aim, typename Ready, typename
 __device__ __forceinline__ void each_place_in_turn(const SolveTeam& team, const RigidFrameView& f, const Load& load,
                                                    const Placed& placed, const Aim& aim, const Ready& ready,
                                                    const Work& work, const Keep& keep) {
-  decltype(load(TileSlot(nullptr, 0))) loaded;
+  decltype(load(TileSlot())) loaded;
   const std::uint64_t places = f.counts->places;
   std::uint64_t place = team.spread_rank();
   const auto is_patch = [&](std::uint64_t at) { return at < places && f.patch_at[at] != kUncolored; };
   bool has = is_patch(place);
   while (place - lane() < places) {
-    const TileSlot slot(f.constraints, place);
+    const TileSlot slot = team.slot(place);
     if (has) loaded = load(slot);
     const std::uint64_t next = place + team.size();
     const bool has_next = is_patch(next);
@@ -113,10 +113,10 @@ __device__ __forceinline__ void each_place_in_turn(const SolveTeam& team, const 
 //
 // visits: which patches the sweep chooses in large colors (Visits). There nothing is loaded ahead.
 template <typename Load, typename Work, typename Keep, typename Visited>
-__device__ __forceinline__ void each_visited_by_color(const SolveTeam& team, const RigidFrameView& f, const Load& load,
-                                                      const Work& work, const Keep& keep, const Visited& visits) {
-  decltype(load(TileSlot(nullptr, 0))) loaded;
-  ChosenTurns chosen(team, f);
+__device__ __forceinline__ void each_visited_by_color(const SolveTeam& team, const Load& load, const Work& work,
+                                                      const Keep& keep, const Visited& visits) {
+  decltype(load(TileSlot())) loaded;
+  ChosenTurns chosen(team);
   const std::uint32_t chosen_until = visits.is_used ? team.chosen_until() : 0;
   if (chosen_until > 0) chosen.begin(0);
   ColorTurn turn = chosen_until > 0 ? ColorTurn{} : team.turn_from(0);
@@ -125,12 +125,12 @@ __device__ __forceinline__ void each_visited_by_color(const SolveTeam& team, con
   std::uint32_t owed = 0;
   ColorWait wait = ColorWait::kNothing;
   for (std::uint32_t color = 0;;) {
-    if (owes) keep(TileSlot(f.constraints, owed), owed, loaded);
+    if (owes) keep(team.slot(owed), owed, loaded);
     owes = false;
     // A load ahead waits until the thread has arrived at the barrier after its last turn of a color.
     const bool loads = wait != ColorWait::kNothing || turn.color == color;
     if (loads && !is_loaded && turn.color != kNoColor) {
-      loaded = load(TileSlot(f.constraints, turn.place));
+      loaded = load(team.slot(turn.place));
       is_loaded = true;
     }
     if (wait == ColorWait::kTeam) team.wait();
@@ -141,7 +141,7 @@ __device__ __forceinline__ void each_visited_by_color(const SolveTeam& team, con
     is_loaded &= !is_stale;
     if (__any_sync(kFullWarp, is_stale)) continue;
     if (turn.color == color) {
-      work(TileSlot(f.constraints, turn.place), turn.place, loaded);
+      work(team.slot(turn.place), turn.place, loaded);
       owes = true;
       owed = turn.place;
       turn = color < chosen_until ? chosen.next() : team.turn_after(turn);
@@ -164,7 +164,7 @@ __device__ __forceinline__ void each_visited_by_color(const SolveTeam& team, con
       break;
     }
   }
-  if (owes) keep(TileSlot(f.constraints, owed), owed, loaded);
+  if (owes) keep(team.slot(owed), owed, loaded);
 }
 
 // Loads the velocities of a patch's bodies, calls work(), which changes a and b, and stores them. All other parts of a

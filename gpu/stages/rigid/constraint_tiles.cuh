@@ -19,10 +19,12 @@ constexpr std::uint32_t kFourPoints = core::kManifoldPoints;
 // The constraint at one place.
 class TileSlot {
  public:
-  __device__ TileSlot(PackedVec3* constraints, std::uint64_t place)
-      : first_(constraints + place / kTile * (kTile * kConstraintWords) + place % kTile) {}
+  TileSlot() = default;  // of no constraint
+  __device__ TileSlot(const ConstraintMemory& memory, std::uint64_t place)
+      : even_(memory.words + place / kTile * kTileWords + place % kTile * (memory.has_pairs ? 2 : 1)),
+        odd_(even_ + (memory.has_pairs ? 1 : kTile)) {}
 
-  __device__ PackedVec3& at(std::uint32_t word) const { return first_[word * kTile]; }
+  __device__ PackedVec3& at(std::uint32_t word) const { return (word % 2 == 0 ? even_ : odd_)[word / 2 * (2 * kTile)]; }
   // The four numbers of a word that has one number for each point.
   __device__ void load_each(std::uint32_t word, float (&numbers)[kFourPoints]) const {
     const PackedVec3 w = at(word);
@@ -36,7 +38,8 @@ class TileSlot {
   }
 
  private:
-  PackedVec3* first_;
+  PackedVec3* even_ = nullptr;
+  PackedVec3* odd_ = nullptr;
 };
 
 // The indices of the bodies, the number of points, the slop and the fastest push.

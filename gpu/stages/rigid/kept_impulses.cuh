@@ -9,6 +9,7 @@
 #include "core/method/rigid/soft_contact.hpp"
 #include "gpu/rigid/rigid_view.hpp"
 #include "gpu/stages/rigid/constraint_tiles.cuh"
+#include "gpu/stages/rigid/solve_team.cuh"
 
 namespace broadside::gpu {
 
@@ -25,13 +26,13 @@ struct NothingMore {};
 // load(slot, patch) loads what push(patch, loaded) needs to compute the core::WorldPush of the patch. Centers are
 // loaded here.
 template <typename Load, typename Push>
-__device__ __forceinline__ void give_known_impulses(const RigidFrameView& f, std::uint32_t i, core::SolverBody& body,
-                                                    const Load& load, const Push& push) {
-  using Known = KnownPatch<decltype(load(TileSlot(nullptr, 0), std::declval<core::PatchConstraint&>()))>;
+__device__ __forceinline__ void give_known_impulses(const SolveTeam& team, const RigidFrameView& f, std::uint32_t i,
+                                                    core::SolverBody& body, const Load& load, const Push& push) {
+  using Known = KnownPatch<decltype(load(TileSlot(), std::declval<core::PatchConstraint&>()))>;
   const std::uint32_t* places = f.by_color + f.memory.begin[i];
   const std::uint32_t count = core::is_moved(body) ? f.memory.count[i] : 0;  // a sleeping body is not moved
   const auto load_known = [&](std::uint32_t place_and_side) {
-    const TileSlot slot(f.constraints, place_and_side / 2);
+    const TileSlot slot = team.slot(place_and_side / 2);
     Known known;
     known.is_b = place_and_side % 2 != 0;
     known.loaded = load(slot, known.c);
@@ -56,14 +57,14 @@ __device__ __forceinline__ void give_known_impulses(const RigidFrameView& f, std
 
 // Applies the impulses of the substep before, which have this version: core::warm_start. They are mostly there already,
 // so lanes do not wait together (wait_until).
-__device__ __forceinline__ void give_kept_impulses(const RigidFrameView& f, std::uint32_t i, core::SolverBody& body,
-                                                   std::uint32_t version) {
+__device__ __forceinline__ void give_kept_impulses(const SolveTeam& team, const RigidFrameView& f, std::uint32_t i,
+                                                   core::SolverBody& body, std::uint32_t version) {
   struct Known {
-    TileSlot slot = TileSlot(nullptr, 0);
+    TileSlot slot;
     LoadedGiven given;
   };
   give_known_impulses(
-      f, i, body,
+      team, f, i, body,
       [](const TileSlot& slot, core::PatchConstraint& /*c*/) {
         return Known{slot, load_given(slot)};
       },
@@ -74,10 +75,10 @@ __device__ __forceinline__ void give_kept_impulses(const RigidFrameView& f, std:
 }
 
 // Applies the impulses as they are now, after sweeps that did not store their sum (store_given).
-__device__ __forceinline__ void give_present_impulses(const RigidFrameView& f, std::uint32_t i,
+__device__ __forceinline__ void give_present_impulses(const SolveTeam& team, const RigidFrameView& f, std::uint32_t i,
                                                       core::SolverBody& body) {
   give_known_impulses(
-      f, i, body,
+      team, f, i, body,
       [](const TileSlot& slot, core::PatchConstraint& c) {
         load_bodies(slot, c);
         load_directions(slot, c);
@@ -95,10 +96,10 @@ struct KnownWays {
 
 // Applies a step along the last directions: core::push_along. since: the first sweep of a relaxation, only whose
 // patches take part; 0 = all patches, before the bodies move.
-__device__ __forceinline__ void give_step_along(const RigidFrameView& f, std::uint32_t i, core::SolverBody& body,
-                                                float share, std::uint32_t since) {
+__device__ __forceinline__ void give_step_along(const SolveTeam& team, const RigidFrameView& f, std::uint32_t i,
+                                                core::SolverBody& body, float share, std::uint32_t since) {
   give_known_impulses(
-      f, i, body,
+      team, f, i, body,
       [since](const TileSlot& slot, core::PatchConstraint& c) {
         load_bodies(slot, c);
         load_directions(slot, c);

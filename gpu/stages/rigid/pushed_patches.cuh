@@ -25,13 +25,14 @@ __device__ __forceinline__ void take_back_impulses(const SolveTeam& team, const 
 
 // Sets a moved body back to the velocity that it had in the substep before any impulse, and applies the impulses that
 // its patches have now. Call after a barrier.
-__device__ __forceinline__ void go_back_to_start(const RigidFrameView& f, std::uint32_t i, core::SolverBody& body) {
+__device__ __forceinline__ void go_back_to_start(const SolveTeam& team, const RigidFrameView& f, std::uint32_t i,
+                                                 core::SolverBody& body) {
   const PackedStart& start = f.starts[i];
   if (core::is_moved(body)) {
     body.v = start.driven_v.v;
     body.angular_momentum = start.driven_angular_momentum.v;
   }
-  give_present_impulses(f, i, body);
+  give_present_impulses(team, f, i, body);
 }
 
 // Call after relaxation: patches that bounce stir their bodies for sweep `sweep`. Contributes their fastest approach.

@@ -9,9 +9,11 @@
 
 namespace broadside::gpu {
 
-// shared: in the block's shared memory.
-__device__ __forceinline__ void run_solve(const RigidFrameView& f, SolveShared& shared) {
-  const SolveTeam team(f, shared);
+// constraints: f.constraints, whose layout the caller may know when it is compiled. shared: in the block's shared
+// memory.
+__device__ __forceinline__ void run_solve(const RigidFrameView& f, const ConstraintMemory& constraints,
+                                          SolveShared& shared) {
+  const SolveTeam team(f, constraints, shared);
   const bool is_first = team.rank() == 0;
   const bool is_aborted = lacks_room(f);
   if (!is_aborted) {

@@ -77,7 +77,7 @@ __device__ __forceinline__ float sweep_until_done(const SolveTeam& team, const R
     share = directions.after(sum_of_changes(team, f, solve, largest_change));
     each_body(team, f, [&](std::uint32_t i) {
       core::SolverBody body = load_moving(f, i);
-      give_step_along(f, i, body, share, 0);
+      give_step_along(team, f, i, body, share, 0);
       store_velocity(f.bodies[i], body, team.version());
     });
     team.sync();
@@ -109,7 +109,7 @@ __device__ __forceinline__ void relax_until_done(const SolveTeam& team, const Ri
     each_body(team, f, [&](std::uint32_t i) {
       if (f.relaxed[i] != since) return;
       core::SolverBody body = load_moving(f, i);
-      give_step_along(f, i, body, share, since);
+      give_step_along(team, f, i, body, share, since);
       store_velocity(f.bodies[i], body, team.version());
     });
     team.sync();
@@ -210,7 +210,7 @@ __device__ __forceinline__ void begin_bodies(const SolveTeam& team, const RigidF
       [&](std::uint32_t i, core::SolverBody& body) {
         core::accelerate(body, f.gravity_m_s2, f.wrench == nullptr ? nullptr : f.wrench + i, solve.soft.dt_s);
         note_start(f, i, body, solve);
-        give_kept_impulses(f, i, body, team.kept_version());
+        give_kept_impulses(team, f, i, body, team.kept_version());
         store_velocity(f.bodies[i], body, team.version());
       });
 }
@@ -224,7 +224,7 @@ __device__ __forceinline__ void move_bodies(const SolveTeam& team, const RigidFr
         if (!core::is_moved(body)) return;
         core::move(body, f.mass[i], solve.soft.dt_s);
         if (is_pushed) {
-          go_back_to_start(f, i, body);
+          go_back_to_start(team, f, i, body);
           store_velocity(f.bodies[i], body, team.version());
         }
         store_moved(f, i, body, team.version());

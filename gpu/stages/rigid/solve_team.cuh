@@ -3,6 +3,7 @@
 
 #include "gpu/rigid/rigid_view.hpp"
 #include "gpu/stages/grid/team.cuh"
+#include "gpu/stages/rigid/constraint_tiles.cuh"
 #include "gpu/stages/rigid/solve_shared.cuh"
 
 namespace broadside::gpu {
@@ -19,9 +20,10 @@ struct ColorTurn {
 // One class for both kinds of launch, because the sweeps take long to compile.
 class SolveTeam : public GridPlaces {
  public:
-  // By all threads.
-  __device__ SolveTeam(const RigidFrameView& f, SolveShared& shared)
+  // By all threads. constraints: f.constraints; the caller may know their layout when it is compiled.
+  __device__ SolveTeam(const RigidFrameView& f, const ConstraintMemory& constraints, SolveShared& shared)
       : f_(f),
+        constraints_(constraints),
         shared_(shared),
         colors_(min(f.counts->colors, f.color_capacity)),  // an aborted frame may have more
         alone_from_(colors_),
@@ -36,6 +38,7 @@ class SolveTeam : public GridPlaces {
     __syncthreads();
   }
 
+  [[nodiscard]] __device__ __forceinline__ TileSlot slot(std::uint64_t place) const { return {constraints_, place}; }
   [[nodiscard]] __device__ std::uint32_t colors() const { return colors_; }
   // From this color on each color has at most as many patches as the first block has threads, and that block solves
   // them alone. In a loose heap most colors are such.
@@ -109,6 +112,7 @@ class SolveTeam : public GridPlaces {
   }
 
   const RigidFrameView& f_;
+  ConstraintMemory constraints_;
   SolveShared& shared_;
   std::uint32_t colors_;
   std::uint32_t alone_from_;

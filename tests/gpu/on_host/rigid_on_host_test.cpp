@@ -81,6 +81,16 @@ TEST(RigidOnHost, AHeapSolvedByAGrid) {
   EXPECT_GT(compare("freefall:cube:20[rigid=1]", 40, options), 0U);
 }
 
+// As in the largest scenes.
+TEST(RigidOnHost, AHeapWhoseConstraintsLieInPairsOfWords) {
+  RigidPipelineOptions options;
+  options.may_cluster = false;
+  options.least_for_pairs = 0;
+  EXPECT_GT(compare("freefall:cube:20[rigid=1]", 40, options), 0U);
+  options.solver = core::soft_step_settings();
+  EXPECT_GT(compare("freefall:cube:20[rigid=1]", 40, options, {{"contact", "soft-step"}}), 0U);
+}
+
 // The first color has some three patches a thread: warps choose which of them a sweep visits while cubes land and
 // bounce.
 TEST(RigidOnHost, ALargeColor) {
