@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <vector>
 
 #include "validation/application.hpp"
@@ -79,15 +78,15 @@ class Restitution final : public Validator {
                         true});
   }
 
-  // The answer that is nearest to its limit, or least beyond it, stands for the contact.
+  // The answer that is nearest to its limit, or least beyond it, stands for the contact. There is at least one.
   void judge_answers(const Application& app, const Where& where) {
-    const Answer* best = nullptr;
-    double best_off = std::numeric_limits<double>::infinity();
+    const Answer* best = &answers_.front();
+    double best_off = std::abs(app.approach_after - best->after);
     bool may_be_floor = false;
     for (const Answer& answer : answers_) {
       may_be_floor = may_be_floor || answer.is_floor;
       const double off = std::abs(app.approach_after - answer.after);
-      if (best != nullptr && !(off - answer.limit.value < best_off - best->limit.value)) continue;
+      if (!(off - answer.limit.value < best_off - best->limit.value)) continue;
       best = &answer;
       best_off = off;
     }

@@ -7,7 +7,6 @@
 namespace broadside::reference {
 namespace {
 
-using plain::RigidBody;
 using plain::SolverPoint;
 using plain::Vec;
 
