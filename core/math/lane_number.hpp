@@ -2,8 +2,9 @@
 // several floats side by side in a vector register (reference/octree_cpu/rigid/lanes.hpp): the same operations, and so
 // the same bits.
 //
-// A lane type has + - * / and comparisons lane by lane, converts from a float, and defines its own pick, any and
-// square_root. Its name for the result of a comparison is Truth; truths are joined with & and |, and negated with !.
+// A lane type has + - * / and comparisons lane by lane, converts from a float, and defines its own pick, any,
+// has_sign and square_root. Its name for the result of a comparison is Truth; truths are joined with & and |, and
+// negated with !.
 #pragma once
 
 #include <cmath>
@@ -23,6 +24,10 @@ BROADSIDE_HD constexpr Vec3 pick(bool is_first, Vec3 first, Vec3 second) {
 // Whether it is true in any lane.
 BROADSIDE_HD constexpr bool any(bool truth) {
   return truth;
+}
+// Whether the sign bit is set: of negative numbers and of -0.
+BROADSIDE_HD bool has_sign(float x) {
+  return copysignf(1.0F, x) < 0.0F;
 }
 BROADSIDE_HD float square_root(float x) {
   return sqrtf(x);

@@ -237,7 +237,7 @@ BROADSIDE_HD TruthOf<Number> bounces(const PatchOf<Number>& c, const PatchPointO
 
 // The goals of a sweep after the bodies moved. Computes the patch's masses again where its bodies have turned far:
 // bodies turn only when they move, so these masses hold until they move again. Impulses count as given also where a
-// step along a conjugate direction left them below 0.
+// step along a conjugate direction left them below 0, and where they were taken back (go_back_to).
 template <typename Number, typename Body>
 BROADSIDE_HD PatchGoalsOf<Number> goals_after_motion(PatchOf<Number>& c, const Body& a, const Body& b,
                                                      const SoftStep& step) {
@@ -251,7 +251,7 @@ BROADSIDE_HD PatchGoalsOf<Number> goals_after_motion(PatchOf<Number>& c, const B
     const PatchPointOf<Number>& p = c.points[k];
     const Number gap = gaps(k);
     const TruthOf<Number> has_gap = gap > 0.0F;
-    const TruthOf<Number> has_pushed = (p.normal_impulse > 0.0F) | (p.normal_impulse < 0.0F);
+    const TruthOf<Number> has_pushed = (p.normal_impulse > 0.0F) | has_sign(p.normal_impulse);
     const TruthOf<Number> is_bouncing = bounces(c, p);
     // An open point that gave no impulse is left to the next substep.
     goals.is_open[k] = has_gap & !has_pushed;

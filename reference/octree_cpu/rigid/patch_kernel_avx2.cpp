@@ -47,6 +47,7 @@ struct Lanes {
   friend Lanes pick(Truth is_first, Lanes first, Lanes second) {
     return _mm256_blendv_ps(second.v, first.v, is_first.bits);
   }
+  friend Truth has_sign(Lanes a) { return _mm256_castsi256_ps(_mm256_srai_epi32(_mm256_castps_si256(a.v), 31)); }
   friend Lanes square_root(Lanes a) { return _mm256_sqrt_ps(a.v); }
   friend Lanes plus_product(Lanes sum, Lanes a, Lanes b) { return _mm256_fmadd_ps(a.v, b.v, sum.v); }
   friend Lanes less_product(Lanes sum, Lanes a, Lanes b) { return _mm256_fnmadd_ps(a.v, b.v, sum.v); }

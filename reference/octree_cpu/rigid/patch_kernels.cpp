@@ -52,6 +52,11 @@ inline Four plus_product(Four sum, Four a, Four b) {
 inline Four root(Four x) {
   return Four{sqrtf(x[0]), sqrtf(x[1]), sqrtf(x[2]), sqrtf(x[3])};
 }
+inline FourBits signs_of(Four x) {
+  FourBits bits;
+  std::memcpy(&bits, &x, sizeof bits);
+  return bits >> 31;
+}
 inline Four chosen(FourBits is_first, Four first, Four second) {
   FourBits a, b;
   std::memcpy(&a, &first, sizeof a);
@@ -81,6 +86,7 @@ struct Lanes {
   friend Lanes pick(const Truth& is_first, const Lanes& first, const Lanes& second) {
     return {chosen(is_first.low, first.low, second.low), chosen(is_first.high, first.high, second.high)};
   }
+  friend Truth has_sign(const Lanes& a) { return {signs_of(a.low), signs_of(a.high)}; }
   friend Lanes square_root(const Lanes& a) { return {root(a.low), root(a.high)}; }
   friend Lanes plus_product(const Lanes& sum, const Lanes& a, const Lanes& b) {
     return {plus_product(sum.low, a.low, b.low), plus_product(sum.high, a.high, b.high)};
