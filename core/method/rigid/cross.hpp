@@ -22,6 +22,17 @@ BROADSIDE_HD Vec3 normalized(Vec3 a) {
   return (1.0F / length(a)) * a;
 }
 
+// The unit vector across `along` (unit) that is nearest to `towards` (of any length); zero where the two are parallel
+// to within rounding. Where they are nearly parallel, what is left of `towards` is mostly rounding, some of it along
+// the axis, so that part is taken away once more.
+BROADSIDE_HD Vec3 direction_across(Vec3 along, Vec3 towards) {
+  constexpr float kRounding = 0x1p-20F;
+  const Vec3 left = towards - dot(towards, along) * along;
+  const Vec3 across = left - dot(left, along) * along;
+  const bool is_across = dot(across, across) > kRounding * kRounding * dot(towards, towards);
+  return is_across ? (1.0F / length(across)) * across : Vec3{};
+}
+
 // A body's axes in the world: the columns of its rotation.
 struct TurnedAxes {
   Vec3 x{1.0F, 0.0F, 0.0F};

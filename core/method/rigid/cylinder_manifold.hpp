@@ -167,14 +167,13 @@ BROADSIDE_HD_CALLED void add_line(Candidates& out, const PlacedShape& round, con
     out.add(ends[end], other, is_a, corner_name(static_cast<std::uint32_t>(end)));
 }
 
-// The deepest point of a cylinder along a direction.
+// The deepest point of a cylinder along a direction. Before, where the direction was parallel to the axis to
+// within rounding, the rim's point was sought along that rounding: up to a radius above the end, inside another
+// cylinder that was 11 cm away.
 BROADSIDE_HD_CALLED Vec3 lowest_point(const PlacedShape& c, Vec3 towards) {
   const Vec3 along = c.axes[c.shape->axis];
-  const float on_axis = dot(towards, along);
-  const Vec3 across = towards - on_axis * along;
-  const float size = length(across);
-  const Vec3 end = c.center + (on_axis > 0.0F ? c.shape->half_length_m : -c.shape->half_length_m) * along;
-  return size > 0.0F ? end + (c.shape->radius_m / size) * across : end;
+  const float half = dot(towards, along) > 0.0F ? c.shape->half_length_m : -c.shape->half_length_m;
+  return c.center + half * along + c.shape->radius_m * direction_across(along, towards);
 }
 
 // Adds the ends of the other body's edge that is deepest in a lying cylinder, or of the part of the edge that lies

@@ -139,10 +139,9 @@ BROADSIDE_HD_CALLED CylinderPolytope cylinder_polytope(const PlacedShape& p, int
   out.radius = p.shape->radius_m;
   Vec3 u = p.axes[axis == 2 ? 0 : axis + 1];
   if (pass > 0) {
-    const Vec3 across = towards - dot(towards, out.along) * out.along;
-    const float size = length(across);
-    if (size > kContactRoundings * 0x1p-24F)
-      u = (1.0F / size) * across;
+    const Vec3 across = direction_across(out.along, towards);
+    if (dot(across, across) > 0.0F)
+      u = across;
     else
       pass = 0;
   }

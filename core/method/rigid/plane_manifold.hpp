@@ -56,10 +56,9 @@ BROADSIDE_HD void cylinder_over_plane(const PlacedShape& c, Vec3 n, Vec3 on_plan
   const float half = c.shape->half_length_m;
   const float radius = c.shape->radius_m;
   const float upright = dot(n, along);
-  const Vec3 down = upright * along - n;  // across the axis; as long as the sine between axis and normal
-  const float sine = length(down);
+  const float sine = length(upright * along - n);  // of the angle between axis and normal
   const bool stands = fabsf(upright) >= sine;
-  const Vec3 lowest = sine > 0.0F ? (radius / sine) * down : Vec3{};
+  const Vec3 lowest = radius * direction_across(along, -n);
   const bool is_upper = upright < 0.0F;
   const Vec3 end = c.center + (is_upper ? half : -half) * along;
   const bool is_all_round = dot(n, end - on_plane) + radius * sine <= reach_m;

@@ -172,6 +172,39 @@ TEST(Cylinders, WithACapsuleDeepInThemAreCertified) {
   }
 }
 
+// q, turned by the small angles u about x and v about y.
+Quat tilted(Quat q, float u, float v) {
+  u *= 0.5F;
+  v *= 0.5F;
+  const Quat t{q.w - u * q.x - v * q.y, q.x + u * q.w + v * q.z, q.y + v * q.w - u * q.z, q.z + u * q.y - v * q.x};
+  const float size = std::sqrt(t.w * t.w + t.x * t.x + t.y * t.y + t.z * t.z);
+  return {t.w / size, t.x / size, t.y / size, t.z / size};
+}
+
+// Two cylinders end to end, 11 cm apart, whose normal is the axis of one of them to within rounding. Before, they had a
+// point 11 cm deep, because the deepest point of that one was sought along what rounding had left.
+TEST(Cylinders, EndToEndAreCertified) {
+  Subject a = cylinder(0.25F, 0.5F, 2);
+  Subject b = a;
+  a.pose = {{-1.39149904F, 1.64797962F, 1.25724995F}, {}};
+  b.pose = {{-1.3187325F, 1.67841899F, 0.124134161F}, {0.986145914F, -0.000168300059F, -0.0476595946F, -0.158885822F}};
+  EXPECT_TRUE(is_certified(a, b, 0.15F));
+  EXPECT_TRUE(is_certified(b, a, 0.15F));
+  Draw draw(22);
+  for (int trial = 0; trial < 400; ++trial) {
+    a = cylinder(draw.between(0.2F, 1.0F), draw.between(0.2F, 1.0F), 2);
+    b = cylinder(draw.between(0.2F, 1.0F), draw.between(0.2F, 1.0F), 2);
+    const float tilt = std::pow(10.0F, draw.between(-7.0F, -1.0F));
+    a.pose.q = draw.turn();
+    b.pose.q = tilted(a.pose.q, tilt * draw.between(-1.0F, 1.0F), tilt * draw.between(-1.0F, 1.0F));
+    const float beside = draw.between(-0.1F, 0.1F);
+    const float apart = a.shape.half_length_m + b.shape.half_length_m + draw.between(-0.02F, 0.1F);
+    b.pose.x = a.pose.x + turned(turned_axes(a.pose.q), {beside, 0.0F, apart});
+    ASSERT_TRUE(is_certified(a, b, 0.15F)) << "trial " << trial << "\n" << text_of(a) << "\n" << text_of(b);
+    ASSERT_TRUE(is_certified(b, a, 0.15F)) << "trial " << trial << ", swapped\n" << text_of(b) << "\n" << text_of(a);
+  }
+}
+
 TEST(Cylinders, OfSpecialPositionsAreCertified) {
   Draw draw(2);
   for (int trial = 0; trial < 600; ++trial) {
