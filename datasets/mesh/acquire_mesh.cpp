@@ -9,6 +9,9 @@
 #include "datasets/mesh/mesh_catalogue.hpp"
 #include "datasets/mesh/sha256.hpp"
 #include "datasets/shapes/box_mesh.hpp"
+#include "datasets/shapes/capsule_mesh.hpp"
+#include "datasets/shapes/convex_mesh.hpp"
+#include "datasets/shapes/cylinder_mesh.hpp"
 #include "datasets/shapes/sphere_mesh.hpp"
 
 namespace broadside::datasets {
@@ -33,6 +36,9 @@ Result<Mesh> shape_of(const MeshRow& row) {
   if (row.name == "brick") return box_mesh({1.0, 0.5, 0.5}, {8, 4, 4});
   if (row.name == "domino") return box_mesh({0.2, 1.0, 0.5}, {2, 8, 4});
   if (row.name == "sphere") return sphere_mesh(0.5, 8);
+  if (row.name == "capsule") return capsule_mesh(0.25, 0.25, 8);
+  if (row.name == "cylinder") return cylinder_mesh(0.25, 0.5, 64);
+  if (row.name == "stone") return convex_mesh({1.0, 0.8, 0.6}, 24, kShapeSeed);
   return lumpy_mesh(row.triangles, kShapeSeed);
 }
 

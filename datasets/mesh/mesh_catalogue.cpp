@@ -110,7 +110,7 @@ constexpr std::array<MeshFile, 1> kAsianDragonLowres{{
      .what = "closed; the true low-resolution mesh"},
 }};
 
-constexpr std::array<MeshRow, 11> kMeshes{{
+constexpr std::array<MeshRow, 14> kMeshes{{
     {"bunny", "the paper's Bunny (2,527 V, 4,968 T printed)", kBunny, 2527, 4968, kStanford,
      "apt glmark2-data, then decimation"},
     {"armadillo", "the paper's Armadillo (41,787 V and 15,580 T printed, which no closed mesh can have)", kArmadillo,
@@ -126,6 +126,9 @@ constexpr std::array<MeshRow, 11> kMeshes{{
     {"brick", "a brick of 1 x 0.5 x 0.5, cut every eighth", {}, 162, 320, kOurs, "", true},
     {"domino", "a domino of 0.2 x 1 x 0.5, cut every eighth or less", {}, 114, 224, kOurs, "", true},
     {"sphere", "an icosphere of frequency 8", {}, 642, 1280, kOurs, "", true},
+    {"capsule", "a capsule of length 1 and diameter 0.5, of frequency 8", {}, 290, 576, kOurs, "", true},
+    {"cylinder", "a cylinder of length 1 and diameter 0.5, with 64 sides", {}, 130, 256, kOurs, "", true},
+    {"stone", "the hull of 24 random points on an ellipsoid of 1 x 0.8 x 0.6", {}, 24, 44, kOurs, "", true},
     {"lumpy", "a closed body with concavities, of the Bunny's size class", {}, 2562, 5120, kOurs, "", true},
 }};
 

@@ -355,10 +355,11 @@ class GpuPage(unittest.TestCase):
             with open(out, encoding="utf-8") as file:
                 rows = json.load(file)["rows"]
         self.assertEqual(done.returncode, 1)
-        self.assertIn("0 of 90 cells agree", done.stdout)
+        self.assertIn("0 of 120 cells agree", done.stdout)
         self.assertEqual({row["outcome"] for row in rows}, {"not measured"})
-        self.assertEqual(sum(row["why"] == "no time was left" for row in rows), 88)
-        self.assertEqual({row["scene"].split(":")[1] for row in rows[:40]}, {"cube", "brick", "domino", "sphere"})
+        self.assertEqual(sum(row["why"] == "no time was left" for row in rows), 118)
+        self.assertEqual({row["scene"].split(":")[1] for row in rows[:70]},
+                         {"cube", "brick", "domino", "sphere", "capsule", "cylinder", "stone"})
 
     def test_a_results_file_names_its_command_without_folders(self):
         with tempfile.TemporaryDirectory() as folder:

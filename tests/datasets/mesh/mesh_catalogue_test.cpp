@@ -11,6 +11,7 @@
 
 #include "core/mesh/load_mesh.hpp"
 #include "core/mesh/topology.hpp"
+#include "core/scene/primitive.hpp"
 #include "datasets/mesh/acquire_mesh.hpp"
 #include "datasets/mesh/sha256.hpp"
 #include "tests/core/mesh/mesh_topology.hpp"
@@ -88,6 +89,17 @@ TEST(AcquireMesh, ProceduralMeshesNeedNoFileAndAreNoStandIns) {
     EXPECT_FALSE(mesh.value().is_stand_in);
     EXPECT_TRUE(mesh.value().source.starts_with("procedural"));
   }
+}
+
+TEST(AcquireMesh, ShapesAreThePrimitivesThatTheirNamesSay) {
+  const auto kind_of = [](std::string_view name) {
+    const auto found = core::primitive_of(acquire_mesh(name, MeshOptions{}).value());
+    return found ? std::string(core::primitive_word(found->kind)) : "none";
+  };
+  for (const char* name : {"cube", "brick", "domino"}) EXPECT_EQ(kind_of(name), "box") << name;
+  for (const char* name : {"sphere", "capsule", "cylinder"}) EXPECT_EQ(kind_of(name), name);
+  const core::Mesh stone = acquire_mesh("stone", MeshOptions{}).value();
+  EXPECT_TRUE(core::is_convex(stone) && !core::primitive_of(stone));
 }
 
 TEST(AcquireMesh, WithoutAFileItSaysWhatToDo) {

@@ -51,6 +51,13 @@ TEST(RigidOnHost, PrimitivesThatTouch) {
   EXPECT_GT(compare("rigid:billiards:three", 40), 0U);
 }
 
+TEST(RigidOnHost, CapsulesCylindersAndStones) {
+  for (const char* shape : {"capsule", "cylinder", "stone"}) {
+    EXPECT_GT(compare("freefall:" + std::string(shape) + ":12[rigid=1]", 50), 0U);
+    EXPECT_GT(compare("randommove:" + std::string(shape) + ":12[rigid=1]", 30), 0U);
+  }
+}
+
 // The pairs of these hulls are spread over all warps.
 TEST(RigidOnHost, HullsThatTouch) {
   EXPECT_GT(compare("rigid:arch:7-stands", 8), 0U);
