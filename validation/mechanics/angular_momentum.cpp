@@ -26,6 +26,10 @@ class AngularMomentum final : public Validator {
     finds_within_ = finds_within(header_, evidence.frame);
     moment_.assign(n, {});
     slack_.assign(n, 0.0);
+    scale_.swap(scale_before_);
+    if (m.step != last_step_ + 1) scale_before_.clear();
+    last_step_ = m.step;
+    scale_before_.resize(n);
     scale_.assign(n, 0.0);
     points_.assign(n, 0.0);
     if (finds_within_) ways_.read(m, evidence.frame.points);
@@ -75,7 +79,8 @@ class AngularMomentum final : public Validator {
     // The rounding of turning L back is divided by the least moment, and multiplied by the largest one.
     const double spin = length(b.before.w) + length(b.after.w) +
                         (length(b.before.angular_momentum) + length(b.after.angular_momentum)) / f.least_moment;
-    const double scale = f.largest_moment * spin + scale_[i];
+    // Solvers begin with the impulses of the step before, and take back what is too much.
+    const double scale = f.largest_moment * spin + scale_[i] + scale_before_[i];
     const double limit = gyroscopic + slack_[i] + m.rounding_of(40 + 2 * accumulations_ * points_[i]) * scale +
                          rounding(4) * scale_[i] + kSubnormal + m.h * b.torque_slack +
                          f.largest_moment / f.reach_m * slack_of_sleep_m_s(b, f, sleep_speed_m_s_);
@@ -87,7 +92,8 @@ class AngularMomentum final : public Validator {
 
   static constexpr std::string_view kOrigin =
       "h |w x L| before and after, |J_t| times the gap, |J| times how far point and center move, twice the declared "
-      "speed of sleep of a body that stands still, and rounding";
+      "speed of sleep of a body that stands still, and rounding, also of the impulses of the step before, with which "
+      "solvers begin";
   const core::TraceHeader& header_;
   bool is_told_at_start_;
   bool finds_within_ = false;  // in the frame that it looks at
@@ -97,6 +103,8 @@ class AngularMomentum final : public Validator {
   std::vector<Vec3d> moment_;
   std::vector<double> slack_;
   std::vector<double> scale_;
+  std::vector<double> scale_before_;  // in the step before
+  std::uint64_t last_step_ = 0;
   std::vector<double> points_;
   Tally tally_{"angular-momentum", "angular momenta", kOrigin};
 };

@@ -44,6 +44,10 @@ class Momentum final : public Validator {
 
  private:
   void judge_bodies(const Motion& m, const core::FrameRecord& frame) {
+    given_.swap(before_);
+    if (m.step != last_step_ + 1) before_.clear();
+    last_step_ = m.step;
+    before_.resize(m.bodies.size());
     given_.assign(m.bodies.size(), {});
     const auto give = [&](std::uint32_t body, double sign, Vec3d j) {
       if (core::is_face(body)) return;
@@ -62,8 +66,9 @@ class Momentum final : public Validator {
       const BodyStep& b = m.bodies[i];
       const Vec3d change = f.mass_kg * (b.after.v - b.before.v);
       const Vec3d expected = (f.mass_kg * m.h) * b.acceleration + given_[i].impulse;
-      const double speed =
-          length(b.before.v) + length(b.after.v) + m.h * length(b.acceleration) + given_[i].magnitude / f.mass_kg;
+      // Solvers begin with the impulses of the step before, and take back what is too much.
+      const double speed = length(b.before.v) + length(b.after.v) + m.h * length(b.acceleration) +
+                           (given_[i].magnitude + before_[i].magnitude) / f.mass_kg;
       // A touching body may get impulses that are taken back later, so that no point records them: those of one patch.
       const double applied = given_[i].points + (b.is_alone ? 0.0 : kPointsOfAPatch);
       // Each application adds to the velocity once, in the engine's precision; impulses are recorded in float32.
@@ -112,14 +117,17 @@ class Momentum final : public Validator {
   }
 
   static constexpr std::string_view kOfBodies =
-      "rounding: one addition an application, impulses recorded in float32; twice the declared speed of sleep of a body "
-      "that stands still; for the exact solve nothing else";
+      "rounding: one addition an application, of impulses of this step and of the one before, with which solvers begin; "
+      "impulses recorded in float32; twice the declared speed of sleep of a body that stands still; for the exact solve "
+      "nothing else";
   static constexpr std::string_view kOfSets = "rounding: one addition an application";
   const core::TraceHeader& header_;
   bool has_points_;
   double accumulations_;
   double sleep_speed_m_s_;
   std::vector<Given> given_;
+  std::vector<Given> before_;  // in the step before
+  std::uint64_t last_step_ = 0;
   std::vector<Vec3d> change_;
   std::vector<Vec3d> expected_;
   std::vector<double> scale_;

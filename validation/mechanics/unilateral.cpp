@@ -20,6 +20,8 @@ class Unilateral final : public Validator {
       : header_(subject.header),
         scene_(subject.header.scene),
         margin_m_(subject.header.declaration.number("contact_margin_m")),
+        corrects_(subject.header.declaration.text("correction") != "none"),
+        rate_(subject.header.declaration.number("correction_rate")),
         has_substeps_(subject.header.declaration.number("substeps") > 1.0) {}
 
   void look(const Evidence& evidence) override {
@@ -28,7 +30,7 @@ class Unilateral final : public Validator {
     finds_within_ = finds_within(header_, evidence.frame);
     given_.clear();
     for (const core::ContactPoint& p : evidence.frame.points) given_[{p.a, p.b}].add(m, p);
-    if (has_substeps_) list_points(evidence.frame.points);
+    if (has_substeps_ || corrects_) list_points(evidence.frame.points);
     if (finds_within_) ways_.read(m, evidence.frame.points);
     for (const core::ContactPoint& p : evidence.frame.points) {
       if (p.impulse == core::Vec3{}) continue;
@@ -52,6 +54,7 @@ class Unilateral final : public Validator {
       // Gravity may bring them together within the step.
       double reach = m.h * (std::max(0.0, approach) + m.h * m.strongest_pull);
       reach += arc_m(m, p, p.a) + arc_m(m, p, p.b);
+      if (corrects_) reach += moved_by_correction(m, evidence.frame.points, p);
       // A point that was found within the step is recorded where its surfaces were at the start.
       if (finds_within_) reach = std::max(reach, way_m(m, p, p.a) + way_m(m, p, p.b));
       const double limit = margin_m_ + reach + rounding(8) * (length(at) + std::abs(reach));
@@ -126,6 +129,34 @@ class Unilateral final : public Validator {
     return sum;
   }
 
+  // At most how far this point's gap is closed, m, where the depths of other points of its bodies are corrected. A
+  // correction moves bodies as an impulse at the corrected point would, and no point records it.
+  double moved_by_correction(const Motion& m, const std::vector<core::ContactPoint>& points,
+                             const core::ContactPoint& p) const {
+    return moved(m, points, p, p.a, 1.0) + moved(m, points, p, p.b, -1.0);
+  }
+
+  // sign: as in driven.
+  double moved(const Motion& m, const std::vector<core::ContactPoint>& points, const core::ContactPoint& p,
+               std::uint32_t body, double sign) const {
+    const auto listed = points_of_.find(body);
+    if (core::is_face(body) || !m.facts[body].is_dynamic || listed == points_of_.end()) return 0.0;
+    const Change unit = change_by(m, body, Vec3d(p.point), sign * Vec3d(p.normal));
+    double sum = 0.0;
+    for (const std::uint32_t k : listed->second) {
+      const core::ContactPoint& q = points[k];
+      if (&q == &p || !(q.gap_m < 0.0F)) continue;
+      const Vec3d n(q.normal);
+      const Vec3d arm = Vec3d(q.point) - m.bodies[body].before.x;
+      const double side = q.a == body ? 1.0 : -1.0;
+      const double along = dot(unit.dv + cross(unit.dw, arm), n);
+      const Change own = change_by(m, body, Vec3d(q.point), n);
+      const double yields = dot(own.dv + cross(own.dw, arm), n);
+      sum += rate_ * -static_cast<double>(q.gap_m) * std::max(0.0, -side * along) / yields;
+    }
+    return sum;
+  }
+
   [[nodiscard]] double way_m(const Motion& m, const core::ContactPoint& p, std::uint32_t body) const {
     return core::is_face(body) ? 0.0 : ways_.way_m(body, length(Vec3d(p.point) - m.bodies[body].before.x));
   }
@@ -141,10 +172,13 @@ class Unilateral final : public Validator {
 
   static constexpr std::string_view kOrigin =
       "the declared margin, h times the approach speed with gravity, wrenches and turning, the distance of an arc from "
-      "its tangent, and rounding; with substeps also the approach that other impulses of the step may cause";
+      "its tangent, and rounding; with substeps also the approach that other impulses of the step may cause; how far the "
+      "declared correction of other points' depths may move the bodies";
   const core::TraceHeader& header_;
   const core::Scene& scene_;
   double margin_m_;
+  bool corrects_;
+  double rate_;
   bool has_substeps_;
   bool finds_within_ = false;  // in the frame that it looks at
   WaysWithin ways_;

@@ -41,6 +41,38 @@ TEST(Momentum, AllowsTheRoundingOfItsAdditions) {
                {"m dv = ", "m g h + sum J = (0, 0, 0) N s"});
 }
 
+// A second step, in which the first body ends as `change` leaves it; its points give no impulses.
+template <typename Change>
+void add_idle_step(Specimen& r, const Change& change) {
+  core::FrameRecord frame = r.frames.back();
+  frame.step = 2;
+  frame.time_s = 2 * kStep;
+  for (core::ContactPoint& p : frame.points) p.impulse = {};
+  change(frame.wide);
+  frame.velocity[0] = core::narrowed(frame.wide.velocity[0]);
+  frame.angular_velocity[0] = core::narrowed(frame.wide.angular_velocity[0]);
+  r.frames.push_back(frame);
+}
+
+// A solver that begins a step with the 1 N s of the one before takes them back, to within rounding.
+TEST(Momentum, AllowsTheRoundingOfImpulsesThatAreTakenBack) {
+  const auto stopped = [](double off) {
+    Specimen r = on_floor({0, -1, 0}, {}, {0, 1, 0});
+    r.header.scene.gravity_m_s2 = {};
+    add_idle_step(r, [off](core::WideStates& s) { s.velocity[0].y = off; });
+    return r;
+  };
+  expect_limit("momentum", 24 * kU, stopped, {"m g h + sum J = (0, 0, 0) N s"});
+  // What is two steps old is nothing that a solver begins with.
+  Specimen later = stopped(0);
+  core::FrameRecord third = later.frames.back();
+  third.step = 3;
+  third.wide.velocity[0].y = 10 * kU;
+  third.velocity[0].y = static_cast<float>(10 * kU);
+  later.frames.push_back(third);
+  EXPECT_EQ(law("momentum", later).outcome, core::Outcome::kFail) << told(law("momentum", later));
+}
+
 TEST(Momentum, WithoutPointsIsThatOfBodiesThatMeet) {
   const auto met = [](double off) {
     Specimen r = one_step(2);
@@ -85,6 +117,16 @@ Specimen struck(double more) {
 TEST(AngularMomentum, AllowsTheRoundingOfPointAndState) {
   // 42 operations of L twice and of the moment, 2 u of point and arm, 4 u of the moment.
   expect_limit("angular-momentum", (126 + 4 + 4) * kU, struck, {"dL = (0, 0, 1", "sum (p - x) x J = (0, 0, 1) N m s"});
+}
+
+TEST(AngularMomentum, AllowsTheRoundingOfImpulsesThatAreTakenBack) {
+  const auto stopped = [](double off) {
+    Specimen r = struck(-1);
+    r.header.scene.bodies[0].angular_velocity = {0, 0, -1};
+    add_idle_step(r, [off](core::WideStates& s) { s.angular_velocity[0].z = off; });
+    return r;
+  };
+  expect_limit("angular-momentum", 42 * kU, stopped, {"sum (p - x) x J = (0, 0, 0) N m s"});
 }
 
 TEST(AngularMomentum, LeavesThePlaceInTheGapOpenForFrictionAlone) {
@@ -194,6 +236,29 @@ TEST(Unilateral, AllowsWhatAnArcIsOffItsTangent) {
   };
   const double arc_m = 0.5 * (kArcSpin * kStep) * (kArcSpin * kStep) * 0.5;
   expect_limit("unilateral", kStep * (0.125 + 0.125) + arc_m, spinning);
+}
+
+// A point 2 m to one side of a body of 1 kg and 1 kg m^2 is 1/16 m deep. Pushing it out, which takes an impulse of
+// 1/16 / (1 + 2 x 2) kg m, moves a point 2 m to the other side down by 2 x 2 - 1 times that.
+TEST(Unilateral, AllowsWhereTheDeclaredCorrectionMovesTheBody) {
+  const auto rocks = [](double gap, const char* correction, const char* rate) {
+    Specimen r = on_floor({}, {}, {0, 0.125F, 0}, gap);
+    r.header.declaration = core::Declaration::of(
+        {{"precision", "f32"}, {"detection_at", "start"}, {"correction", correction}, {"correction_rate", rate}});
+    r.frames.back().points[0].point.x = 2.0F;
+    core::ContactPoint deep = r.frames.back().points[0];
+    deep.point.x = -2.0F;
+    deep.gap_m = -0.0625F;
+    deep.impulse = {};
+    add_point(r, deep);
+    return r;
+  };
+  // Without its impulse, the point would close at (1 + 2 x 2) / 8 m/s, and gravity adds 1/8.
+  const double closes = kStep * (0.625 + 0.125);
+  const double pushed = 0.0625 * 3.0 / 5.0;
+  expect_limit("unilateral", closes + pushed, [&](double gap) { return rocks(gap, "position", "1"); });
+  expect_limit("unilateral", closes + 0.5 * pushed, [&](double gap) { return rocks(gap, "velocity", "0.5"); });
+  expect_limit("unilateral", closes, [&](double gap) { return rocks(gap, "none", "1"); });
 }
 
 TEST(Unilateral, MeetsNothingWithoutAnImpulse) {
