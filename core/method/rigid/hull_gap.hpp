@@ -103,6 +103,16 @@ BROADSIDE_HD HullSearch begin_search(const PlacedHull& a, const PlacedHull& b, V
   return s;
 }
 
+// A search in the axes of the world, for bodies that are given by their farthest points. toward: from B to A, of any
+// length.
+BROADSIDE_HD HullSearch begin_search_toward(Vec3 toward) {
+  HullSearch s;
+  const float size = length(toward);
+  s.n = size > 0.0F ? (1.0F / size) * toward : Vec3{1.0F, 0.0F, 0.0F};
+  s.best = s.n;
+  return s;
+}
+
 namespace gap_detail {
 
 // Whether the simplex came nearer to the origin with this corner.
@@ -133,25 +143,38 @@ BROADSIDE_HD bool move_nearer(HullSearch& s, Vec3 corner, float slack_m) {
 
 }  // namespace gap_detail
 
-// Stops when the hulls are apart by more than stop_m, or when the bounds differ by no more than slack_m or the share
-// `thin` of the larger one.
-BROADSIDE_HD_CALLED void search_on(const HullView& hull_a, const HullView& hull_b, HullSearch& search, float stop_m,
-                                   float thin, float slack_m) {
+// Two points, one of each body, which are farthest toward the other body along a direction.
+struct FarthestPoints {
+  Vec3 between;        // A's less B's
+  float gap_m = 0.0F;  // of the bodies along the direction
+};
+
+// Stops when the bodies are apart by more than stop_m, or when the bounds differ by no more than slack_m or the share
+// `thin` of the larger one. farthest(s): along s.n.
+template <typename Farthest>
+BROADSIDE_HD void search_by(HullSearch& search, float stop_m, float thin, float slack_m, const Farthest& farthest) {
   constexpr int kMostSteps = 32;
   HullSearch s = search;
   for (; s.steps < kMostSteps && !s.has_ended; ++s.steps) {
-    s.of_a = lowest_along(hull_a, s.n);
-    s.of_b = lowest_along(hull_b, turned_back(s.turn, -s.n));
-    const Vec3 corner = hull_a.vertices[s.of_a] - (s.between + turned(s.turn, hull_b.vertices[s.of_b]));
-    const float gap = dot(s.n, corner);
-    if (gap > s.gap.least_m) {
-      s.gap.least_m = gap;
+    const FarthestPoints points = farthest(s);
+    if (points.gap_m > s.gap.least_m) {
+      s.gap.least_m = points.gap_m;
       s.best = s.n;
     }
     if (s.gap.least_m > stop_m || s.gap.most_m - s.gap.least_m <= fmaxf(thin * s.gap.most_m, slack_m)) break;
-    s.has_ended = !gap_detail::move_nearer(s, corner, slack_m);
+    s.has_ended = !gap_detail::move_nearer(s, points.between, slack_m);
   }
   search = s;
+}
+
+BROADSIDE_HD_CALLED void search_on(const HullView& hull_a, const HullView& hull_b, HullSearch& search, float stop_m,
+                                   float thin, float slack_m) {
+  search_by(search, stop_m, thin, slack_m, [&](HullSearch& s) {
+    s.of_a = lowest_along(hull_a, s.n);
+    s.of_b = lowest_along(hull_b, turned_back(s.turn, -s.n));
+    const Vec3 corner = hull_a.vertices[s.of_a] - (s.between + turned(s.turn, hull_b.vertices[s.of_b]));
+    return FarthestPoints{corner, dot(s.n, corner)};
+  });
 }
 
 BROADSIDE_HD HullGap gap_of(const HullSearch& search, const PlacedHull& a) {

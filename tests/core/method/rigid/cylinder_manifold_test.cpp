@@ -9,80 +9,13 @@
 #include <numbers>
 #include <string>
 
+#include "tests/core/method/rigid/cylinder_cases.hpp"
 #include "tests/core/method/rigid/mesh_cases.hpp"
 
 namespace broadside::core {
 namespace {
 
 using exact::Point;
-
-double norm_of(Point p) {
-  return std::sqrt(dot(p, p));
-}
-
-Subject cylinder(float radius, float half_length, int axis) {
-  Subject out = ball_on_segment(ContactKind::kCylinder, radius, half_length, axis);
-  return out;
-}
-
-// The least of dot(d, p) over a placed body, in double.
-double least(const Subject& s, Point d) {
-  const exact::ConvexCore core = s.placed();
-  if (s.shape.kind != ContactKind::kCylinder) {
-    double lowest = 1e300;
-    for (const Point p : core.vertices) lowest = std::min(lowest, dot(p, d));
-    return lowest - core.radius_m * norm_of(d);
-  }
-  const Point along = core.directions[0];
-  const Point center = 0.5 * (core.vertices[0] + core.vertices[1]);
-  const double on_axis = dot(d, along);
-  return dot(d, center) - std::abs(on_axis) * s.shape.half_length_m - s.shape.radius_m * norm_of(d - on_axis * along);
-}
-
-double gap_along(const Subject& a, const Subject& b, Point d) {
-  return least(a, d) + least(b, -1.0 * d);
-}
-
-double off(const Subject& s, Point p) {
-  if (s.shape.kind != ContactKind::kCylinder) return off_surface(s, p);
-  const exact::ConvexCore core = s.placed();
-  const Point local = p - 0.5 * (core.vertices[0] + core.vertices[1]);
-  const double on_axis = dot(local, core.directions[0]);
-  const double over_end = std::abs(on_axis) - s.shape.half_length_m;
-  const double over_side = norm_of(local - on_axis * core.directions[0]) - s.shape.radius_m;
-  if (over_end > 0.0 && over_side > 0.0) return std::hypot(over_end, over_side);
-  return std::abs(std::max(over_end, over_side));
-}
-
-// The widest gap that a search over directions finds: 1500 spread over the sphere, then steps that shrink about the
-// best.
-double widest_gap(const Subject& a, const Subject& b) {
-  double best = -1e300;
-  Point at;
-  const auto attempt = [&](Point d) {
-    const double gap = gap_along(a, b, d);
-    if (gap > best) {
-      best = gap;
-      at = d;
-    }
-  };
-  constexpr int kDirections = 1500;
-  for (int k = 0; k < kDirections; ++k) {
-    const double z = 1.0 - (2.0 * k + 1.0) / kDirections;
-    const double turn = k * std::numbers::pi * (3.0 - std::sqrt(5.0));
-    const double r = std::sqrt(1.0 - z * z);
-    attempt({r * std::cos(turn), r * std::sin(turn), z});
-  }
-  for (double step = 0.1; step > 1e-7; step *= 0.7)
-    for (int k = 0; k < 16; ++k) {
-      const double turn = k * std::numbers::pi / 8.0;
-      const Point u = std::abs(at.x) < 0.7 ? cross(at, {1, 0, 0}) : cross(at, {0, 1, 0});
-      const Point w = cross(at, u);
-      const Point d = at + (step * std::cos(turn)) * u + (step * std::sin(turn)) * w;
-      attempt((1.0 / norm_of(d)) * d);
-    }
-  return best;
-}
 
 testing::AssertionResult is_certified(const Subject& a, const Subject& b, float reach_m) {
   const auto wrong = [] { return testing::AssertionFailure(); };
@@ -119,11 +52,16 @@ testing::AssertionResult is_certified(const Subject& a, const Subject& b, float 
   return testing::AssertionSuccess();
 }
 
-Subject other_body(Draw& draw, int kind) {
-  if (kind == 0) return sphere(draw.between(0.2F, 1.0F));
-  if (kind == 1) return capsule(draw.between(0.1F, 0.5F), draw.between(0.1F, 1.0F), draw.below(3));
-  if (kind == 2) return box({draw.between(0.2F, 1.0F), draw.between(0.2F, 1.0F), draw.between(0.2F, 1.0F)});
-  return cylinder(draw.between(0.2F, 1.0F), draw.between(0.2F, 1.0F), draw.below(3));
+// Two that overlap along the normals of all faces, by 9.5 mm at least, and are 99 mm apart along an axis across both
+// rims.
+TEST(Cylinders, WhoseRimsAreFarApartHaveNoPoints) {
+  Subject a = cylinder(0x1.91ee74p-2F, 0x1.ceb73p-3F, 1);
+  Subject b = cylinder(0x1.50504ep-2F, 0x1.1f585ep-3F, 1);
+  a.pose.q = {-0x1.1346b4p-1F, 0x1.6e2b76p-2F, -0x1.3f15e4p-1F, -0x1.c3cd7p-2F};
+  b.pose = {{0x1.0ab43ap-2F, -0x1.d73ed6p-2F, -0x1.63deb8p-1F},
+            {0x1.98e71p-1F, -0x1.132488p-1F, 0x1.24f91ep-9F, -0x1.1566bp-2F}};
+  EXPECT_NEAR(widest_gap(a, b), 0.099, 0.001);
+  for (const float reach_m : {-0.005F, 0.0F, 0.05F, 0.2F}) EXPECT_TRUE(is_certified(a, b, reach_m)) << reach_m;
 }
 
 TEST(Cylinders, OfRandomPairsAreCertified) {
