@@ -21,6 +21,7 @@
 #include "core/method/rigid/point_nearest.hpp"
 #include "core/method/rigid/polytope_axes.hpp"
 #include "core/method/rigid/polytope_manifold.hpp"
+#include "core/method/rigid/round_gap.hpp"
 
 namespace broadside::core {
 
@@ -167,15 +168,6 @@ BROADSIDE_HD_CALLED void add_line(Candidates& out, const PlacedShape& round, con
     out.add(ends[end], other, is_a, corner_name(static_cast<std::uint32_t>(end)));
 }
 
-// The deepest point of a cylinder along a direction. Before, where the direction was parallel to the axis to
-// within rounding, the rim's point was sought along that rounding: up to a radius above the end, inside another
-// cylinder that was 11 cm away.
-BROADSIDE_HD_CALLED Vec3 lowest_point(const PlacedShape& c, Vec3 towards) {
-  const Vec3 along = c.axes[c.shape->axis];
-  const float half = dot(towards, along) > 0.0F ? c.shape->half_length_m : -c.shape->half_length_m;
-  return c.center + half * along + c.shape->radius_m * direction_across(along, towards);
-}
-
 // Adds the ends of the other body's edge that is deepest in a lying cylinder, or of the part of the edge that lies
 // between the cylinder's end planes.
 template <typename Polytope>
@@ -276,9 +268,9 @@ BROADSIDE_HD_CALLED void against(const PlacedShape& cylinder, const PlacedShape&
   // The deepest point of either body over the other.
   const float shown = axis.gap_m - ball + 2.0F * rounding_m;
   if (points.least_gap() > shown) {
-    points.add(lowest_point(cylinder, -n), other, true, corner_name(upright > 0.0F ? 0 : 1));
+    points.add(farthest_of_cylinder(cylinder, -n), other, true, corner_name(upright > 0.0F ? 0 : 1));
     if (other.shape->kind == ContactKind::kCylinder)
-      points.add(lowest_point(other, n), cylinder, false, corner_name(0));
+      points.add(farthest_of_cylinder(other, n), cylinder, false, corner_name(0));
     else
       points.add(polytope.corner(lowest_corner(polytope, -n)) + ball * n, cylinder, false,
                  corner_name(static_cast<std::uint32_t>(lowest_corner(polytope, -n))));
@@ -297,16 +289,16 @@ BROADSIDE_HD_CALLED void against(const PlacedShape& cylinder, const PlacedShape&
   const float gap = axis.gap_m - ball;
   if (points.least_gap() > shown && gap <= 0.0F) {
     const int lowest = lowest_corner(polytope, -n);
-    const Vec3 of_other =
-        other.shape->kind == ContactKind::kCylinder ? lowest_point(other, n) : polytope.corner(lowest) + ball * n;
+    const Vec3 of_other = other.shape->kind == ContactKind::kCylinder ? farthest_of_cylinder(other, n)
+                                                                      : polytope.corner(lowest) + ball * n;
     points.add_if_on_both(of_other + (0.5F * gap) * n, gap,
                           feature_key(face_name(2), corner_name(static_cast<std::uint32_t>(lowest))), cylinder, other);
-    points.add_if_on_both(lowest_point(cylinder, -n) - (0.5F * gap) * n, gap,
+    points.add_if_on_both(farthest_of_cylinder(cylinder, -n) - (0.5F * gap) * n, gap,
                           feature_key(corner_name(upright > 0.0F ? 0 : 1), face_name(0)), cylinder, other);
     if (ball == 0.0F) add_edge_inside(points, cylinder, polytope);
   }
   if (points.least_gap() > shown && axis.gap_m <= 0.0F) {
-    const Vec3 p = axis.kind == AxisKind::kEdges ? crossing.on_a : lowest_point(cylinder, -n);
+    const Vec3 p = axis.kind == AxisKind::kEdges ? crossing.on_a : farthest_of_cylinder(cylinder, -n);
     const ManifoldPoint last{p - (0.5F * axis.gap_m) * n, axis.gap_m, rim_key};
     points.add(polytope_detail::with_balls(last, n, 0.0F, ball));
   }

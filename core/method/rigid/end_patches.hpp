@@ -14,6 +14,7 @@
 #include "core/method/rigid/passing_by.hpp"
 #include "core/method/rigid/quick_boxes.hpp"
 #include "core/method/rigid/quick_hulls.hpp"
+#include "core/method/rigid/quick_rounds.hpp"
 
 namespace broadside::core {
 
@@ -62,6 +63,9 @@ BROADSIDE_HD_CALLED int add_end_patches(const ContactShape& shape_a, const Conta
   const float unseen = unseen_m(shape_a, shape_b);
   if (count == 0 || !(swing_m > unseen)) return count;
   if (are_boxes(shape_a, shape_b) && gap_of_boxes(shape_a, a.end, shape_b, b.end, found[0].normal) > -unseen)
+    return count;
+  if (has_round_answers(shape_a, shape_b) &&
+      surely_apart(round_bounds(shape_a, a.end, shape_b, b.end, -unseen, found[0].normal), -unseen))
     return count;
   if constexpr (Lanes::kKnowsLongShapes)
     if (known != nullptr || has_quick_answers(shape_a, shape_b)) {

@@ -11,6 +11,7 @@
 #include "core/method/rigid/pushed_motion.hpp"
 #include "core/method/rigid/quick_boxes.hpp"
 #include "core/method/rigid/quick_hulls.hpp"
+#include "core/method/rigid/quick_rounds.hpp"
 
 namespace broadside::core {
 
@@ -58,6 +59,8 @@ BROADSIDE_HD bool surely_passes(const ContactShape& shape_a, const ContactPath& 
   gaps.are_known = false;
   if (are_boxes(shape_a, shape_b))
     return ahead.may_pass && boxes_surely_pass(shape_a, a, shape_b, b, ahead.reach_m, near_at_most_m(ahead.near));
+  if (has_round_answers(shape_a, shape_b))
+    return ahead.may_pass && rounds_surely_pass(shape_a, a, shape_b, b, ahead.reach_m, ahead.near);
   if constexpr (Lanes::kKnowsLongShapes)
     if (has_quick_answers(shape_a, shape_b)) return hulls_surely_pass(shape_a, a, shape_b, b, ahead, gaps);
   return false;

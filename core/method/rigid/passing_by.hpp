@@ -8,6 +8,7 @@
 #include "core/method/rigid/moved_back.hpp"
 #include "core/method/rigid/quick_boxes.hpp"
 #include "core/method/rigid/quick_hulls.hpp"
+#include "core/method/rigid/quick_rounds.hpp"
 #include "core/method/rigid/rigid_integrate.hpp"
 #include "core/method/rigid/rigid_state.hpp"
 
@@ -31,6 +32,11 @@ BROADSIDE_HD float least_gap_m(const Manifold& m) {
 template <typename Lanes>
 BROADSIDE_HD QuickAnswer is_still_apart(const Manifold& start, const ContactShape& shape_a, const ContactPose& a,
                                         const ContactShape& shape_b, const ContactPose& b, float reach_m) {
+  if (has_round_answers(shape_a, shape_b)) {
+    const QuickAnswer quick =
+        quickly_still_apart(start.normal, round_bounds(shape_a, a, shape_b, b, reach_m, start.normal), reach_m);
+    if (quick != QuickAnswer::kUnknown) return quick;
+  }
   if constexpr (Lanes::kKnowsLongShapes)
     if (has_quick_answers(shape_a, shape_b)) {
       const QuickAnswer quick =

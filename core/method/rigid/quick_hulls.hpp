@@ -102,23 +102,34 @@ BROADSIDE_HD float seen_reach_m(float reach_m) {
   return 2.0F * reach_m;
 }
 
-// Whether two hulls have no patch at the start of a step, or only one that passes_by drops. near: as for near_m. pair
-// and search: those at the start; the search may go on later from where it stops here.
-BROADSIDE_HD bool surely_pass(const ContactShape& shape_a, const ContactPath& a, const ContactShape& shape_b,
-                              const ContactPath& b, const HullPair& pair, HullSearch& search, float reach_m,
-                              const NearReach& near) {
-  using namespace quick_detail;
-  const HullBounds start = hull_bounds(pair, search, reach_m);
+namespace quick_detail {
+
+// Whether two bodies with these bounds at the start of a step have no patch there, or only one that passes_by drops.
+// near: as for near_m. bounds_at(pose of a, pose of b, stop_m, toward): bounds at other poses.
+template <typename BoundsAt>
+BROADSIDE_HD bool surely_pass(const HullBounds& start, const ContactPath& a, const ContactPath& b, float reach_m,
+                              const NearReach& near, const BoundsAt& bounds_at) {
   const float margin_m = kMargin * start.rounding_m;
   if (start.gap.least_m > reach_m + margin_m) return true;
   const Vec3 n = start.gap.normal;
   if (!is_clear(start) || !(start.gap.least_m > near_at_most_m(n, kNormalOff, near) + margin_m)) return false;
   const float seen_m = seen_reach_m(reach_m);
   const auto are_apart = [&](const ContactPose& at_a, const ContactPose& at_b) {
-    const HullBounds end = hull_bounds(shape_a, at_a, shape_b, at_b, seen_m, n);
-    return quickly_still_apart(n, end, seen_m) == QuickAnswer::kYes;
+    return quickly_still_apart(n, bounds_at(at_a, at_b, seen_m, n), seen_m) == QuickAnswer::kYes;
   };
   return are_apart(a.end, b.end) && are_apart(a.end, b.start) && are_apart(a.start, b.end);
+}
+
+}  // namespace quick_detail
+
+// For two hulls. pair and search: those at the start; the search may go on later from where it stops here.
+BROADSIDE_HD bool surely_pass(const ContactShape& shape_a, const ContactPath& a, const ContactShape& shape_b,
+                              const ContactPath& b, const HullPair& pair, HullSearch& search, float reach_m,
+                              const NearReach& near) {
+  return quick_detail::surely_pass(hull_bounds(pair, search, reach_m), a, b, reach_m, near,
+                                   [&](const ContactPose& at_a, const ContactPose& at_b, float stop_m, Vec3 toward) {
+                                     return hull_bounds(shape_a, at_a, shape_b, at_b, stop_m, toward);
+                                   });
 }
 
 }  // namespace broadside::core

@@ -12,6 +12,7 @@
 #include "core/method/rigid/known_gaps.hpp"
 #include "core/method/rigid/passing_by.hpp"
 #include "tests/core/method/rigid/manifold_cases.hpp"
+#include "tests/core/method/rigid/quick_cases.hpp"
 
 namespace broadside::core {
 namespace {
@@ -187,62 +188,16 @@ TEST(QuickHulls, ALaneOfHullsLeavesFewPairs) {
   EXPECT_LT(left, 30);
 }
 
-// The same answer as is_still_apart, from patches alone.
-bool stays_apart(const Manifold& start, const Subject& a, const ContactPose& at_a, const Subject& b,
-                 const ContactPose& at_b, float reach_m) {
-  Manifold end[kPatchesOfPair];
-  if (make_manifolds(a.shape, at_a, b.shape, at_b, reach_m, end) == 0) return false;
-  return least_gap_m(end[0]) > 0.0F && dot(start.normal, end[0].normal) > 0.0F;
-}
-
 TEST(QuickHulls, TellWhatPatchesTell) {
   Draw draw(3);
-  int passing = 0;
-  int told = 0;
-  int answers[3] = {};
-  for (int trial = 0; trial < 300; ++trial) {
-    const Subject a = boulder(draw, 60);
-    const Subject b = boulder(draw, 60);
-    ASSERT_TRUE(has_quick_answers(a.shape, b.shape));
-    ContactPath path_a{{{}, draw.turn()}, {}};
-    ContactPath path_b{{draw.between(0.7F, 1.2F) * normalized(draw.in_cube(1.0F)), draw.turn()}, {}};
-    path_a.end = {draw.in_cube(0.1F), path_a.start.q};
-    path_b.end = {path_b.start.x + draw.in_cube(0.1F), path_b.start.q};
-    const float reach_m = length(path_a.end.x - path_a.start.x) + length(path_b.end.x - path_b.start.x);
-    const float near_m = 0.01F * static_cast<float>(draw.below(4));
-    const PairAhead ahead{.reach_m = reach_m, .near = {near_m, {}, {}}, .swing_m = 0.0F};
-    KnownGaps gaps;
-    const bool surely = surely_passes(a.shape, path_a, b.shape, path_b, ahead, gaps);
-    told += surely ? 1 : 0;
-    Manifold start[kPatchesOfPair];
-    const int count = make_manifolds(a.shape, path_a.start, b.shape, path_b.start, reach_m, start);
-    bool passes = count == 0;
-    if (count > 0) {
-      const ContactPose* const ends[3][2] = {
-          {&path_a.end, &path_b.end}, {&path_a.end, &path_b.start}, {&path_a.start, &path_b.end}};
-      passes = least_gap_m(start[0]) > near_m;
-      for (const auto& [at_a, at_b] : ends) {
-        const bool apart = stays_apart(start[0], a, *at_a, b, *at_b, 2.0F * reach_m);
-        passes &= apart;
-        const float seen_m = seen_reach_m(reach_m);
-        const HullBounds bounds = hull_bounds(a.shape, *at_a, b.shape, *at_b, seen_m);
-        const QuickAnswer answer = quickly_still_apart(start[0].normal, bounds, seen_m);
-        ++answers[static_cast<int>(answer)];
-        if (answer != QuickAnswer::kUnknown) {
-          EXPECT_EQ(answer == QuickAnswer::kYes, apart) << trial;
-        }
-      }
-    }
-    passing += passes ? 1 : 0;
-    if (surely) {
-      EXPECT_TRUE(passes) << trial;
-    }
-  }
-  // Most pairs get a quick answer; otherwise it would save nothing.
-  EXPECT_GT(told, passing * 2 / 3);
-  EXPECT_GT(answers[static_cast<int>(QuickAnswer::kYes)], 50);
-  EXPECT_GT(answers[static_cast<int>(QuickAnswer::kNo)], 50);
-  EXPECT_LT(answers[static_cast<int>(QuickAnswer::kUnknown)], 100);
+  const auto body = [&draw](int) { return boulder(draw, 60); };
+  const QuickCounts counts = compare_quick_answers(
+      draw, 300, body, body,
+      [](const Subject& a, const ContactPose& at_a, const Subject& b, const ContactPose& at_b, float seen_m) {
+        EXPECT_TRUE(has_quick_answers(a.shape, b.shape));
+        return hull_bounds(a.shape, at_a, b.shape, at_b, seen_m);
+      });
+  expect_most_are_quick(counts);
 }
 
 }  // namespace
