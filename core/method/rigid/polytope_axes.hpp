@@ -203,10 +203,13 @@ BROADSIDE_HD_CALLED SeparatingAxis separating_axis(const PolytopeA& a, const Pol
   Layer near_b;
   if (a.edge_count() * b.edge_count() > axes_detail::kFewEdgePairs && best.kind != AxisKind::kNone) {
     // Edges farther apart than reach_m are left out below, so bodies that only such edges part are told here. Before,
-    // two cylinders that were 99 mm apart, and overlapped along the normals of all faces, had a point 10 mm deep.
-    const float surely_m = reach_m + 4.0F * rounding_m;
-    const HullGap gap = axes_detail::gap_of_corners(a, b, surely_m, rounding_m);
-    if (gap.least_m > surely_m) return {gap.least_m, gap.normal, AxisKind::kPoints};
+    // two cylinders that were 99 mm apart, and overlapped along the normals of all faces, had a point 10 mm deep. Of
+    // finely cut hulls only those that are not clearly apart come here (hull_manifold.hpp).
+    if (!(kIsHull<PolytopeA> && kIsHull<PolytopeB> && has_many_edges(a, b))) {
+      const float surely_m = reach_m + 4.0F * rounding_m;
+      const HullGap gap = axes_detail::gap_of_corners(a, b, surely_m, rounding_m);
+      if (gap.least_m > surely_m) return {gap.least_m, gap.normal, AxisKind::kPoints};
+    }
     NearBound bound{best.normal, best.gap_m, fmaxf(reach_m, -best.gap_m)};
     if (has_many_edges(a, b) && best.gap_m > 0.0F) {
       bound = near_bound(a, b, best.normal, best.gap_m, rounding_m);

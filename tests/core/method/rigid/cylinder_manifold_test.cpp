@@ -8,6 +8,7 @@
 #include <cmath>
 #include <numbers>
 #include <string>
+#include <vector>
 
 #include "tests/core/method/rigid/cylinder_cases.hpp"
 #include "tests/core/method/rigid/mesh_cases.hpp"
@@ -54,14 +55,43 @@ testing::AssertionResult is_certified(const Subject& a, const Subject& b, float 
 
 // Two that overlap along the normals of all faces, by 9.5 mm at least, and are 99 mm apart along an axis across both
 // rims.
-TEST(Cylinders, WhoseRimsAreFarApartHaveNoPoints) {
+struct FarRims {
   Subject a = cylinder(0x1.91ee74p-2F, 0x1.ceb73p-3F, 1);
   Subject b = cylinder(0x1.50504ep-2F, 0x1.1f585ep-3F, 1);
-  a.pose.q = {-0x1.1346b4p-1F, 0x1.6e2b76p-2F, -0x1.3f15e4p-1F, -0x1.c3cd7p-2F};
-  b.pose = {{0x1.0ab43ap-2F, -0x1.d73ed6p-2F, -0x1.63deb8p-1F},
-            {0x1.98e71p-1F, -0x1.132488p-1F, 0x1.24f91ep-9F, -0x1.1566bp-2F}};
-  EXPECT_NEAR(widest_gap(a, b), 0.099, 0.001);
-  for (const float reach_m : {-0.005F, 0.0F, 0.05F, 0.2F}) EXPECT_TRUE(is_certified(a, b, reach_m)) << reach_m;
+
+  FarRims() {
+    a.pose.q = {-0x1.1346b4p-1F, 0x1.6e2b76p-2F, -0x1.3f15e4p-1F, -0x1.c3cd7p-2F};
+    b.pose = {{0x1.0ab43ap-2F, -0x1.d73ed6p-2F, -0x1.63deb8p-1F},
+              {0x1.98e71p-1F, -0x1.132488p-1F, 0x1.24f91ep-9F, -0x1.1566bp-2F}};
+  }
+};
+constexpr float kReaches[] = {-0.005F, 0.0F, 0.05F, 0.2F};
+
+TEST(Cylinders, WhoseRimsAreFarApartHaveNoPoints) {
+  const FarRims pair;
+  EXPECT_NEAR(widest_gap(pair.a, pair.b), 0.099, 0.001);
+  for (const float reach_m : kReaches) EXPECT_TRUE(is_certified(pair.a, pair.b, reach_m)) << reach_m;
+}
+
+// The hull of the even prism that stands for a cylinder, less one corner: a whole one is a drawing of that cylinder.
+Subject prism_of(const Subject& s) {
+  const CylinderPolytope prism = cylinder_polytope(placed_shape(s.shape, {}, {}), 0, {});
+  std::vector<Vec3> corners;
+  for (int k = 1; k < prism.corner_count(); ++k) corners.push_back(prism.corner(k));
+  Subject out = hull(*exact::convex_hull(corners));
+  out.pose = s.pose;
+  return out;
+}
+
+TEST(Prisms, WhoseRimsAreFarApartHaveNoPoints) {
+  const FarRims pair;
+  for (const float reach_m : kReaches) {
+    EXPECT_TRUE(is_right(prism_of(pair.a), prism_of(pair.b), reach_m)) << reach_m;
+    Manifold out[kPatchesOfPair];
+    const Subject b = prism_of(pair.b);
+    const int count = make_manifolds(pair.a.shape, pair.a.pose, b.shape, b.pose, reach_m, out);
+    EXPECT_EQ(count, reach_m > 0.1F ? 1 : 0) << "a cylinder and a prism, " << reach_m;
+  }
 }
 
 TEST(Cylinders, OfRandomPairsAreCertified) {
