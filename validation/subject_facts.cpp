@@ -28,6 +28,10 @@ bool has(const core::TraceHeader& header, core::Group group) {
   return (header.groups & core::bit(group)) != 0;
 }
 
+double correction_rate(const core::TraceHeader& header) {
+  return header.declaration.text("correction") == "none" ? 0.0 : header.declaration.number("correction_rate");
+}
+
 bool has_impulses(const core::TraceHeader& header) {
   return has(header, core::Group::kPoints) && header.declaration.text("contacts") != "geometry";
 }

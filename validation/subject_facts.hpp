@@ -15,6 +15,9 @@ std::string lacking(const core::TraceHeader& header, std::uint32_t groups);
 
 bool has(const core::TraceHeader& header, core::Group group);
 
+// The share of a depth that a step corrects, as declared; 0 where no correction is declared.
+double correction_rate(const core::TraceHeader& header);
+
 // Whether points of contact are recorded with the impulses that acted there, and not as places alone.
 bool has_impulses(const core::TraceHeader& header);
 

@@ -17,6 +17,7 @@ class AngularMomentum final : public Validator {
       : header_(subject.header),
         is_told_at_start_(is_at_start(header_.declaration.text("detection_at"))),
         accumulations_(subject.header.declaration.number("iterations") * subject.header.declaration.number("substeps")),
+        rate_(correction_rate(subject.header)),
         sleep_speed_m_s_(subject.header.declaration.number("sleep_speed_m_s")) {}
 
   void look(const Evidence& evidence) override {
@@ -31,6 +32,7 @@ class AngularMomentum final : public Validator {
     last_step_ = m.step;
     scale_before_.resize(n);
     scale_.assign(n, 0.0);
+    pushed_.assign(n, 0.0);
     points_.assign(n, 0.0);
     if (finds_within_) ways_.read(m, evidence.frame.points);
     for (const core::ContactPoint& p : evidence.frame.points) {
@@ -64,6 +66,7 @@ class AngularMomentum final : public Validator {
     // The point is recorded in float32.
     slack_[body] += size * rounding(2) * (length(Vec3d(p.point)) + length(arm));
     scale_[body] += size * length(arm);
+    pushed_[body] += m.facts[body].mass_kg * rate_ * std::max(0.0, -static_cast<double>(p.gap_m)) / m.h * length(arm);
     points_[body] += 1.0;
   }
 
@@ -79,8 +82,9 @@ class AngularMomentum final : public Validator {
     // The rounding of turning L back is divided by the least moment, and multiplied by the largest one.
     const double spin = length(b.before.w) + length(b.after.w) +
                         (length(b.before.angular_momentum) + length(b.after.angular_momentum)) / f.least_moment;
-    // Solvers begin with the impulses of the step before, and take back what is too much.
-    const double scale = f.largest_moment * spin + scale_[i] + scale_before_[i];
+    // Solvers begin with the impulses of the step before, and take back what is too much. They also take back the speed
+    // at which a correction parts bodies.
+    const double scale = f.largest_moment * spin + scale_[i] + scale_before_[i] + pushed_[i];
     const double limit = gyroscopic + slack_[i] + m.rounding_of(40 + 2 * accumulations_ * points_[i]) * scale +
                          rounding(4) * scale_[i] + kSubnormal + m.h * b.torque_slack +
                          f.largest_moment / f.reach_m * slack_of_sleep_m_s(b, f, sleep_speed_m_s_);
@@ -93,17 +97,19 @@ class AngularMomentum final : public Validator {
   static constexpr std::string_view kOrigin =
       "h |w x L| before and after, |J_t| times the gap, |J| times how far point and center move, twice the declared "
       "speed of sleep of a body that stands still, and rounding, also of the impulses of the step before, with which "
-      "solvers begin";
+      "solvers begin, and of the speed at which a declared correction parts bodies";
   const core::TraceHeader& header_;
   bool is_told_at_start_;
   bool finds_within_ = false;  // in the frame that it looks at
   WaysWithin ways_;
   double accumulations_;
+  double rate_;
   double sleep_speed_m_s_;
   std::vector<Vec3d> moment_;
   std::vector<double> slack_;
   std::vector<double> scale_;
   std::vector<double> scale_before_;  // in the step before
+  std::vector<double> pushed_;
   std::uint64_t last_step_ = 0;
   std::vector<double> points_;
   Tally tally_{"angular-momentum", "angular momenta", kOrigin};

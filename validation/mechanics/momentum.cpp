@@ -19,6 +19,7 @@ constexpr double kOfAxes = 14.0;
 struct Given {
   Vec3d impulse;           // N s
   double magnitude = 0.0;  // sum of |J|
+  double pushed = 0.0;     // the fastest speed, m/s, at which a declared correction parts the body from another one
   double points = 0.0;
 };
 
@@ -28,6 +29,7 @@ class Momentum final : public Validator {
       : header_(subject.header),
         has_points_(has_impulses(header_)),
         accumulations_(header_.declaration.number("iterations") * header_.declaration.number("substeps")),
+        rate_(correction_rate(header_)),
         sleep_speed_m_s_(header_.declaration.number("sleep_speed_m_s")) {}
 
   void look(const Evidence& evidence) override {
@@ -49,15 +51,16 @@ class Momentum final : public Validator {
     last_step_ = m.step;
     before_.resize(m.bodies.size());
     given_.assign(m.bodies.size(), {});
-    const auto give = [&](std::uint32_t body, double sign, Vec3d j) {
+    const auto give = [&](std::uint32_t body, double sign, Vec3d j, double depth_m) {
       if (core::is_face(body)) return;
+      given_[body].pushed = std::max(given_[body].pushed, rate_ * depth_m / m.h);
       given_[body].impulse = given_[body].impulse + sign * j;
       given_[body].magnitude += length(j);
       given_[body].points += 1.0;
     };
     for (const core::ContactPoint& p : frame.points) {
-      give(p.a, 1.0, Vec3d(p.impulse));
-      give(p.b, -1.0, Vec3d(p.impulse));
+      give(p.a, 1.0, Vec3d(p.impulse), -p.gap_m);
+      give(p.b, -1.0, Vec3d(p.impulse), -p.gap_m);
     }
     for (std::uint32_t i = 0; i < m.bodies.size(); ++i) {
       const BodyFacts& f = m.facts[i];
@@ -66,8 +69,9 @@ class Momentum final : public Validator {
       const BodyStep& b = m.bodies[i];
       const Vec3d change = f.mass_kg * (b.after.v - b.before.v);
       const Vec3d expected = (f.mass_kg * m.h) * b.acceleration + given_[i].impulse;
-      // Solvers begin with the impulses of the step before, and take back what is too much.
-      const double speed = length(b.before.v) + length(b.after.v) + m.h * length(b.acceleration) +
+      // Solvers begin with the impulses of the step before, and take back what is too much. They also take back the
+      // speed at which a correction parts bodies.
+      const double speed = length(b.before.v) + length(b.after.v) + m.h * length(b.acceleration) + given_[i].pushed +
                            (given_[i].magnitude + before_[i].magnitude) / f.mass_kg;
       // A touching body may get impulses that are taken back later, so that no point records them: those of one patch.
       const double applied = given_[i].points + (b.is_alone ? 0.0 : kPointsOfAPatch);
@@ -117,13 +121,14 @@ class Momentum final : public Validator {
   }
 
   static constexpr std::string_view kOfBodies =
-      "rounding: one addition an application, of impulses of this step and of the one before, with which solvers begin; "
-      "impulses recorded in float32; twice the declared speed of sleep of a body that stands still; for the exact solve "
+      "rounding: one addition an application, of impulses of this step and of the one before, with which solvers begin, "
+      "and of the speed at which a declared correction parts bodies; impulses recorded in float32; twice the declared speed of sleep of a body that stands still; for the exact solve "
       "nothing else";
   static constexpr std::string_view kOfSets = "rounding: one addition an application";
   const core::TraceHeader& header_;
   bool has_points_;
   double accumulations_;
+  double rate_;
   double sleep_speed_m_s_;
   std::vector<Given> given_;
   std::vector<Given> before_;  // in the step before

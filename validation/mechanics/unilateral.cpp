@@ -20,8 +20,7 @@ class Unilateral final : public Validator {
       : header_(subject.header),
         scene_(subject.header.scene),
         margin_m_(subject.header.declaration.number("contact_margin_m")),
-        corrects_(subject.header.declaration.text("correction") != "none"),
-        rate_(subject.header.declaration.number("correction_rate")),
+        rate_(correction_rate(subject.header)),
         has_substeps_(subject.header.declaration.number("substeps") > 1.0) {}
 
   void look(const Evidence& evidence) override {
@@ -30,7 +29,7 @@ class Unilateral final : public Validator {
     finds_within_ = finds_within(header_, evidence.frame);
     given_.clear();
     for (const core::ContactPoint& p : evidence.frame.points) given_[{p.a, p.b}].add(m, p);
-    if (has_substeps_ || corrects_) list_points(evidence.frame.points);
+    if (has_substeps_ || rate_ > 0.0) list_points(evidence.frame.points);
     if (finds_within_) ways_.read(m, evidence.frame.points);
     for (const core::ContactPoint& p : evidence.frame.points) {
       if (p.impulse == core::Vec3{}) continue;
@@ -54,7 +53,7 @@ class Unilateral final : public Validator {
       // Gravity may bring them together within the step.
       double reach = m.h * (std::max(0.0, approach) + m.h * m.strongest_pull);
       reach += arc_m(m, p, p.a) + arc_m(m, p, p.b);
-      if (corrects_) reach += moved_by_correction(m, evidence.frame.points, p);
+      if (rate_ > 0.0) reach += moved_by_correction(m, evidence.frame.points, p);
       // A point that was found within the step is recorded where its surfaces were at the start.
       if (finds_within_) reach = std::max(reach, way_m(m, p, p.a) + way_m(m, p, p.b));
       const double limit = margin_m_ + reach + rounding(8) * (length(at) + std::abs(reach));
@@ -177,7 +176,6 @@ class Unilateral final : public Validator {
   const core::TraceHeader& header_;
   const core::Scene& scene_;
   double margin_m_;
-  bool corrects_;
   double rate_;
   bool has_substeps_;
   bool finds_within_ = false;  // in the frame that it looks at

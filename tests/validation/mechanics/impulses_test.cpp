@@ -73,6 +73,22 @@ TEST(Momentum, AllowsTheRoundingOfImpulsesThatAreTakenBack) {
   EXPECT_EQ(law("momentum", later).outcome, core::Outcome::kFail) << told(law("momentum", later));
 }
 
+// A gap of -1/64 m, which a correction of all of it closes at 1 m/s.
+Specimen deep(Specimen r, const char* correction) {
+  r.header.scene.gravity_m_s2 = {};
+  r.header.declaration =
+      core::Declaration::of({{"precision", "f32"}, {"detection_at", "start"}, {"correction", correction}});
+  r.frames.back().points[0].gap_m = -static_cast<float>(kStep);
+  return r;
+}
+
+TEST(Momentum, AllowsTheRoundingOfACorrectionThatIsTakenBack) {
+  const auto pushed = [](double off) { return deep(on_floor({}, {0, off, 0}, {}), "position"); };
+  expect_limit("momentum", 24 * kU, pushed, {"m g h + sum J = (0, 0, 0) N s"});
+  const core::Verdict v = law("momentum", deep(on_floor({}, {0, kU, 0}, {}), "none"));
+  EXPECT_EQ(v.outcome, core::Outcome::kFail) << told(v);
+}
+
 TEST(Momentum, WithoutPointsIsThatOfBodiesThatMeet) {
   const auto met = [](double off) {
     Specimen r = one_step(2);
@@ -127,6 +143,15 @@ TEST(AngularMomentum, AllowsTheRoundingOfImpulsesThatAreTakenBack) {
     return r;
   };
   expect_limit("angular-momentum", 42 * kU, stopped, {"sum (p - x) x J = (0, 0, 0) N m s"});
+}
+
+TEST(AngularMomentum, AllowsTheRoundingOfACorrectionThatIsTakenBack) {
+  const auto pushed = [](double off) {
+    Specimen r = deep(struck(off - 1), "position");
+    r.frames.back().points[0].impulse = {};
+    return r;
+  };
+  expect_limit("angular-momentum", 42 * kU, pushed, {"sum (p - x) x J = (0, 0, 0) N m s"});
 }
 
 TEST(AngularMomentum, LeavesThePlaceInTheGapOpenForFrictionAlone) {
