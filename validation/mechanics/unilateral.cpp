@@ -104,27 +104,34 @@ class Unilateral final : public Validator {
     return driven(m, points, p, p.a, 1.0) + driven(m, points, p, p.b, -1.0);
   }
 
-  // sign: 1 for the body that the normal points to. An impulse's normal part only grows within a step; its friction may
-  // have had any direction, up to mu times that.
-  double driven(const Motion& m, const std::vector<core::ContactPoint>& points, const core::ContactPoint& p,
-                std::uint32_t body, double sign) const {
+  // For each other point q of a body. moves: the velocity that a unit impulse at p gives q's place, which by
+  // reciprocity is what one there does at p. parts: the speed at which a unit impulse along q's normal parts p's
+  // bodies. sign: 1 for the body that p's normal points to.
+  template <typename Visit>
+  void each_other(const Motion& m, const std::vector<core::ContactPoint>& points, const core::ContactPoint& p,
+                  std::uint32_t body, double sign, const Visit& visit) const {
     const auto listed = points_of_.find(body);
-    if (core::is_face(body) || !m.facts[body].is_dynamic || listed == points_of_.end()) return 0.0;
-    // By reciprocity, the speed of this point due to a unit impulse elsewhere on the body equals the speed of that
-    // place due to a unit impulse here.
+    if (core::is_face(body) || !m.facts[body].is_dynamic || listed == points_of_.end()) return;
     const Change unit = change_by(m, body, Vec3d(p.point), sign * Vec3d(p.normal));
-    double sum = 0.0;
     for (const std::uint32_t k : listed->second) {
       const core::ContactPoint& q = points[k];
-      if (&q == &p || q.impulse == core::Vec3{}) continue;
+      if (&q == &p) continue;
+      const Vec3d arm = Vec3d(q.point) - m.bodies[body].before.x;
+      const Vec3d moves = unit.dv + cross(unit.dw, arm);
+      visit(q, arm, moves, (q.a == body ? 1.0 : -1.0) * dot(moves, Vec3d(q.normal)));
+    }
+  }
+
+  // An impulse's normal part only grows within a step; its friction may have had any direction, up to mu times that.
+  double driven(const Motion& m, const std::vector<core::ContactPoint>& points, const core::ContactPoint& p,
+                std::uint32_t body, double sign) const {
+    double sum = 0.0;
+    each_other(m, points, p, body, sign, [&](const core::ContactPoint& q, Vec3d, Vec3d moves, double parts) {
       const Vec3d n(q.normal);
       const double push = std::max(0.0, dot(Vec3d(q.impulse), n));
-      const Vec3d moves = unit.dv + cross(unit.dw, Vec3d(q.point) - m.bodies[body].before.x);
-      const double along = dot(moves, n);
-      const double side = q.a == body ? 1.0 : -1.0;
-      sum += push * std::max(0.0, -side * along);
-      sum += scene_friction(scene_, q).larger() * push * length(moves - along * n);
-    }
+      sum += push * std::max(0.0, -parts);
+      sum += scene_friction(scene_, q).larger() * push * length(moves - dot(moves, n) * n);
+    });
     return sum;
   }
 
@@ -135,24 +142,16 @@ class Unilateral final : public Validator {
     return moved(m, points, p, p.a, 1.0) + moved(m, points, p, p.b, -1.0);
   }
 
-  // sign: as in driven.
   double moved(const Motion& m, const std::vector<core::ContactPoint>& points, const core::ContactPoint& p,
                std::uint32_t body, double sign) const {
-    const auto listed = points_of_.find(body);
-    if (core::is_face(body) || !m.facts[body].is_dynamic || listed == points_of_.end()) return 0.0;
-    const Change unit = change_by(m, body, Vec3d(p.point), sign * Vec3d(p.normal));
     double sum = 0.0;
-    for (const std::uint32_t k : listed->second) {
-      const core::ContactPoint& q = points[k];
-      if (&q == &p || !(q.gap_m < 0.0F)) continue;
+    each_other(m, points, p, body, sign, [&](const core::ContactPoint& q, Vec3d arm, Vec3d, double parts) {
+      if (!(q.gap_m < 0.0F)) return;
       const Vec3d n(q.normal);
-      const Vec3d arm = Vec3d(q.point) - m.bodies[body].before.x;
-      const double side = q.a == body ? 1.0 : -1.0;
-      const double along = dot(unit.dv + cross(unit.dw, arm), n);
       const Change own = change_by(m, body, Vec3d(q.point), n);
       const double yields = dot(own.dv + cross(own.dw, arm), n);
-      sum += rate_ * -static_cast<double>(q.gap_m) * std::max(0.0, -side * along) / yields;
-    }
+      sum += rate_ * -static_cast<double>(q.gap_m) * std::max(0.0, -parts) / yields;
+    });
     return sum;
   }
 
