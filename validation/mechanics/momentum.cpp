@@ -121,9 +121,9 @@ class Momentum final : public Validator {
   }
 
   static constexpr std::string_view kOfBodies =
-      "rounding: one addition an application, of impulses of this step and of the one before, with which solvers begin, "
-      "and of the speed at which a declared correction parts bodies; impulses recorded in float32; twice the declared speed of sleep of a body that stands still; for the exact solve "
-      "nothing else";
+      "rounding: one addition an application, of impulses of this step and of the one before, with which solvers "
+      "begin, and of the speed at which a declared correction parts bodies; impulses recorded in float32; twice the "
+      "declared speed of sleep of a body that stands still; for the exact solve nothing else";
   static constexpr std::string_view kOfSets = "rounding: one addition an application";
   const core::TraceHeader& header_;
   bool has_points_;

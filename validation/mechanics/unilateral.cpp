@@ -170,8 +170,8 @@ class Unilateral final : public Validator {
 
   static constexpr std::string_view kOrigin =
       "the declared margin, h times the approach speed with gravity, wrenches and turning, the distance of an arc from "
-      "its tangent, and rounding; with substeps also the approach that other impulses of the step may cause; how far the "
-      "declared correction of other points' depths may move the bodies";
+      "its tangent, and rounding; with substeps also the approach that other impulses of the step may cause; how far "
+      "the declared correction of other points' depths may move the bodies";
   const core::TraceHeader& header_;
   const core::Scene& scene_;
   double margin_m_;
